@@ -1,0 +1,8 @@
+SEMIANALYTIC_OBJECTS = $(patsubst %.c,$(BUILD)/%.o,$(filter-out semianalytic/main.c,$(wildcard semianalytic/*.c)))
+PROGRAMS += $(BUILD)/critvel-semianalytic
+
+$(BUILD)/libsemianalytic.a: $(SEMIANALYTIC_OBJECTS)
+	rm -f $@ && ar rcs $@ $^
+
+$(BUILD)/critvel-semianalytic: $(BUILD)/semianalytic/main.o $(BUILD)/libsemianalytic.a $(BUILD)/libcommon.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
