@@ -24,6 +24,14 @@ void cv_number_set(cv_number *to, const cv_number *from);
  * magnitudes outside 1e-300 .. 1e300, which no track has and no double holds; to is then unchanged. */
 cv_status cv_number_parse(cv_number *to, const char *text, cv_message *why);
 
+/* to = (n / d)^(1/4), n, d > 0 rationals; a root that is rational is stored as a plain rational. */
+void cv_number_set_root(cv_number *to, const mpq_t n, const mpq_t d);
+/* Exact. y != 0 for the quotient. to may be x or y. */
+void cv_number_mul(cv_number *to, const cv_number *x, const cv_number *y);
+void cv_number_div(cv_number *to, const cv_number *x, const cv_number *y);
+
+/* 1 when x is a plain rational, 0 when a fourth root remains */
+int cv_number_is_rational(const cv_number *x);
 int cv_number_sign(const cv_number *x); /* -1, 0, 1 */
 /* -1, 0, 1 as x <, =, > y; exact */
 int cv_number_compare(const cv_number *x, const cv_number *y);

@@ -19,13 +19,34 @@ typedef struct {
 
 /* Rows of a cv_option table for the cv_selection at offset base; a program lists those it takes, e.g.
  *   static const cv_option options[] = {CV_OPTION_CASE(0), CV_OPTION_DIGITS(0), {NULL, NULL, 0, 0}}; */
-#define CV_OPTION_CASE(base) {"case", cv_set_text, (base) + offsetof(cv_selection, case_name), 0}
-#define CV_OPTION_DIGITS(base) {"digits", cv_set_digits, (base) + offsetof(cv_selection, digits), 0}
-#define CV_OPTION_FORMAT(base) {"format", cv_set_format, (base) + offsetof(cv_selection, format), 0}
-#define CV_OPTION_DAMPING(base) {"damping", cv_set_number, (base) + offsetof(cv_selection, damping), 0}
-#define CV_OPTION_ALPHA(base) {"alpha", cv_set_number, (base) + offsetof(cv_selection, alpha), 0}
-#define CV_OPTION_FREQUENCY(base) {"frequency", cv_set_number, (base) + offsetof(cv_selection, frequency), 0}
-#define CV_OPTION_MASS_RATIO(base) {"mass-ratio", cv_set_number, (base) + offsetof(cv_selection, mass_ratio), 0}
+#define CV_OPTION_CASE(base)                                                                                 \
+    {                                                                                                        \
+        "case", cv_set_text, (base) + offsetof(cv_selection, case_name), 0                                   \
+    }
+#define CV_OPTION_DIGITS(base)                                                                               \
+    {                                                                                                        \
+        "digits", cv_set_digits, (base) + offsetof(cv_selection, digits), 0                                  \
+    }
+#define CV_OPTION_FORMAT(base)                                                                               \
+    {                                                                                                        \
+        "format", cv_set_format, (base) + offsetof(cv_selection, format), 0                                  \
+    }
+#define CV_OPTION_DAMPING(base)                                                                              \
+    {                                                                                                        \
+        "damping", cv_set_number, (base) + offsetof(cv_selection, damping), 0                                \
+    }
+#define CV_OPTION_ALPHA(base)                                                                                \
+    {                                                                                                        \
+        "alpha", cv_set_number, (base) + offsetof(cv_selection, alpha), 0                                    \
+    }
+#define CV_OPTION_FREQUENCY(base)                                                                            \
+    {                                                                                                        \
+        "frequency", cv_set_number, (base) + offsetof(cv_selection, frequency), 0                            \
+    }
+#define CV_OPTION_MASS_RATIO(base)                                                                           \
+    {                                                                                                        \
+        "mass-ratio", cv_set_number, (base) + offsetof(cv_selection, mass_ratio), 0                          \
+    }
 
 void cv_selection_init(cv_selection *s);
 void cv_selection_clear(cv_selection *s);

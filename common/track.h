@@ -38,8 +38,8 @@ void cv_track_reference_velocity(mpfr_t v_ref, const cv_track *t);
 void cv_track_chi(mpfr_t chi, const cv_track *t);
 void cv_track_static_deflection(mpfr_t w_st, const cv_track *t);
 
-/* The other direction: the physical track with the given EI, m and k_f whose dimensionless form is p and whose
- * mass has the ratio eta_M (NULL: M = 0); P = 0. All exact. */
+/* The other direction: the physical track with the given EI, m and k_f whose dimensionless form is p and
+ * whose mass has the ratio eta_M (NULL: M = 0); P = 0. All exact. */
 cv_status cv_track_from_params(cv_track *out, const cv_params *p, const cv_number *eta_M, const cv_number *EI,
                                const cv_number *m, const cv_number *k_f, cv_message *why);
 

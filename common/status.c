@@ -1,0 +1,16 @@
+#include "common/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+cv_status cv_fail(cv_message *why, cv_status code, const char *format, ...)
+{
+    if (why != NULL) {
+        va_list args;
+        va_start(args, format);
+        if (vsnprintf(why->text, sizeof why->text, format, args) < 0)
+            why->text[0] = '\0';
+        va_end(args);
+    }
+    return code;
+}
