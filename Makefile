@@ -14,7 +14,7 @@ COMPILE   = $(CC) $(STD) $(WARNINGS) $(CFLAGS) $(CPPFLAGS) -MMD -MP
 .PHONY: all
 all: programs
 
-include common/Dir.mk semianalytic/Dir.mk dgreen/Dir.mk compare/Dir.mk tests/Dir.mk
+include common/Dir.mk semianalytic/Dir.mk dgreen/Dir.mk compare/Dir.mk tests/Dir.mk tests/reference/Dir.mk
 
 .PHONY: programs
 programs: $(PROGRAMS)
