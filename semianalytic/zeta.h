@@ -2,9 +2,9 @@
  * characteristic equation is eta_M zeta = 1 (DESIGN.md section 3 on the factor 4 in the printed (13)).
  *
  * Everything is dimensionless, (3)-(6) of Dimitrovova & Mazilu, J. Phys.: Conf. Ser. 2647 (2024) 252017.
- * Signs: e^{+ i q tau}, e^{+ i p xi}, s = i (q - alpha p), qbar = i q. Re qbar >= 0, that is Im q <= 0, is the
- * half-plane where the Laplace image exists; real q is its boundary and q may have either sign,
- * zeta(-q) = conj zeta(q). K(0, q) = 2 pi i (sum over the poles with Im p > 0 of the residues of d2/d3).
+ * Signs: e^{+ i q tau}, e^{+ i p xi}, s = i (q - alpha p), qbar = i q. Re qbar >= 0, that is Im q <= 0, is
+ * the half-plane where the Laplace image exists; real q is its boundary and q may have either sign, zeta(-q)
+ * = conj zeta(q). K(0, q) = 2 pi i (sum over the poles with Im p > 0 of the residues of d2/d3).
  *
  * No function here prints, aborts or keeps hidden state; a sweep must not be used by two threads at once, a
  * track may. */
@@ -40,10 +40,10 @@ sa_sweep *sa_sweep_new(void); /* NULL when out of memory */
 void sa_sweep_free(sa_sweep *s);
 sa_counts sa_sweep_counts(const sa_sweep *s);
 
-/* |true Re zeta - re| <= re_error and |true Im zeta - im| <= im_error, proven (rectangular interval arithmetic,
- * each pole in its own box with a unique zero of d3, as many boxes above the real axis as there are poles).
- * d_alpha, d_q: analytic partial derivatives d zeta / d alpha and d zeta / d q (q real or complex), in double
- * without a bound. */
+/* |true Re zeta - re| <= re_error and |true Im zeta - im| <= im_error, proven (rectangular interval
+ * arithmetic, each pole in its own box with a unique zero of d3, as many boxes above the real axis as there
+ * are poles). d_alpha, d_q: analytic partial derivatives d zeta / d alpha and d zeta / d q (q real or
+ * complex), in double without a bound. */
 typedef struct {
     double re, im, re_error, im_error;
     double complex d_alpha, d_q;
@@ -60,15 +60,15 @@ cv_status sa_zeta_double(sa_value *out, sa_sweep *state, const sa_track *t, doub
 cv_status sa_zeta_complex(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double complex q);
 
 /* Double where it is enough, then MPFR with growing precision, until re_error <= rel_tol |re| and im_error <=
- * rel_tol |im| (an exactly zero part counts as known); rel_tol >= 1e-15. CV_UNDECIDED: SA_PRECISION_MAX bits were
- * not enough, which happens at the branch points of an undamped track. */
+ * rel_tol |im| (an exactly zero part counts as known); rel_tol >= 1e-15. CV_UNDECIDED: SA_PRECISION_MAX bits
+ * were not enough, which happens at the branch points of an undamped track. */
 cv_status sa_zeta_adaptive(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q,
                            double rel_tol);
 
 enum { SA_PRECISION_MAX = 4096 };
 
-/* zeta at the exact point (alpha, q), computed with the precision of mpc_get_prec(zeta), and proven bounds for
- * the two parts. Undamped tracks: the limit q - i0; a part that is exactly zero is 0 with bound 0.
+/* zeta at the exact point (alpha, q), computed with the precision of mpc_get_prec(zeta), and proven bounds
+ * for the two parts. Undamped tracks: the limit q - i0; a part that is exactly zero is 0 with bound 0.
  * CV_UNDECIDED: that precision cannot separate the poles or decide their half-plane. */
 cv_status sa_zeta_mp(mpc_t zeta, mpfr_t re_error, mpfr_t im_error, sa_sweep *state, const sa_track *t,
                      const mpfr_t alpha, const mpfr_t q);
