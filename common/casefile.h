@@ -15,7 +15,7 @@ typedef struct {
 
 typedef struct {
     char *name;       /* what follows "case " or "track " in the section name; unique in the file */
-    int line;         /* of the section's first key */
+    int line;         /* of the section's header */
     int is_track;     /* 1: physical holds the SI values and reports add m/s and km/h */
     cv_params params; /* with the dampings of level 0; (5)-(6) exact */
     cv_track physical;

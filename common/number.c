@@ -1,7 +1,6 @@
 #include "common/number.h"
 
-#include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
 /* get_mpfr takes this many bits more than the caller: the root and the product then cost less than 2^-60 ulp
  * beside the final rounding. */
@@ -122,4 +121,10 @@ double cv_number_get_double(const cv_number *x)
     const double d = mpfr_get_d(t, MPFR_RNDN);
     mpfr_clear(t);
     return d;
+}
+
+int cv_number_fits_double(const cv_number *x)
+{
+    const double size = fabs(cv_number_get_double(x));
+    return cv_number_sign(x) == 0 || (size >= 1e-300 && size <= 1e300);
 }

@@ -40,6 +40,8 @@ int cv_number_compare(const cv_number *x, const cv_number *y);
  * rounded for rationals). */
 void cv_number_get_mpfr(mpfr_t out, const cv_number *x);
 double cv_number_get_double(const cv_number *x); /* the same at 53 bits */
+/* 1 when x is zero or of magnitude 1e-300 .. 1e300: what every program step may hold in a double */
+int cv_number_fits_double(const cv_number *x);
 
 /* Shortest exact decimal of a rational that has one (any number that was read by cv_number_parse), else
  * "digits" significant digits. Plain notation, or d.ddde-XX where the exponent is below -5 or above 20.

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 /* A member with its name, the sign it must have and its admissible range (31). */
 typedef struct {
@@ -62,18 +61,11 @@ int cv_params_undamped(const cv_params *p)
     return cv_number_sign(&p->eta_p) == 0 && cv_number_sign(&p->eta_b) == 0 && cv_number_sign(&p->eta_f) == 0;
 }
 
-/* 1 when x is zero or 1e-300 <= |x| <= 1e300, so that every later step may use doubles for it */
-static int fits_double(const cv_number *x)
-{
-    const double size = fabs(cv_number_get_double(x));
-    return cv_number_sign(x) == 0 || (size >= 1e-300 && size <= 1e300);
-}
-
 static cv_status check_member(const cv_number *x, const rule *r, cv_message *why)
 {
     if (cv_number_sign(x) < r->least_sign)
         return cv_fail(why, CV_BAD_INPUT, "%s must be %s 0", r->name, r->least_sign > 0 ? ">" : ">=");
-    if (!fits_double(x))
+    if (!cv_number_fits_double(x))
         return cv_fail(why, CV_BAD_INPUT, "%s is outside 1e-300 .. 1e300", r->name);
     return CV_OK;
 }

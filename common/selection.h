@@ -19,34 +19,17 @@ typedef struct {
 
 /* Rows of a cv_option table for the cv_selection at offset base; a program lists those it takes, e.g.
  *   static const cv_option options[] = {CV_OPTION_CASE(0), CV_OPTION_DIGITS(0), {NULL, NULL, 0, 0}}; */
-#define CV_OPTION_CASE(base)                                                                                 \
+#define CV_SELECTION_ROW(base, name, setter, member)                                                         \
     {                                                                                                        \
-        "case", cv_set_text, (base) + offsetof(cv_selection, case_name), 0                                   \
+        name, setter, (base) + offsetof(cv_selection, member), 0                                             \
     }
-#define CV_OPTION_DIGITS(base)                                                                               \
-    {                                                                                                        \
-        "digits", cv_set_digits, (base) + offsetof(cv_selection, digits), 0                                  \
-    }
-#define CV_OPTION_FORMAT(base)                                                                               \
-    {                                                                                                        \
-        "format", cv_set_format, (base) + offsetof(cv_selection, format), 0                                  \
-    }
-#define CV_OPTION_DAMPING(base)                                                                              \
-    {                                                                                                        \
-        "damping", cv_set_number, (base) + offsetof(cv_selection, damping), 0                                \
-    }
-#define CV_OPTION_ALPHA(base)                                                                                \
-    {                                                                                                        \
-        "alpha", cv_set_number, (base) + offsetof(cv_selection, alpha), 0                                    \
-    }
-#define CV_OPTION_FREQUENCY(base)                                                                            \
-    {                                                                                                        \
-        "frequency", cv_set_number, (base) + offsetof(cv_selection, frequency), 0                            \
-    }
-#define CV_OPTION_MASS_RATIO(base)                                                                           \
-    {                                                                                                        \
-        "mass-ratio", cv_set_number, (base) + offsetof(cv_selection, mass_ratio), 0                          \
-    }
+#define CV_OPTION_CASE(base) CV_SELECTION_ROW(base, "case", cv_set_text, case_name)
+#define CV_OPTION_DIGITS(base) CV_SELECTION_ROW(base, "digits", cv_set_digits, digits)
+#define CV_OPTION_FORMAT(base) CV_SELECTION_ROW(base, "format", cv_set_format, format)
+#define CV_OPTION_DAMPING(base) CV_SELECTION_ROW(base, "damping", cv_set_number, damping)
+#define CV_OPTION_ALPHA(base) CV_SELECTION_ROW(base, "alpha", cv_set_number, alpha)
+#define CV_OPTION_FREQUENCY(base) CV_SELECTION_ROW(base, "frequency", cv_set_number, frequency)
+#define CV_OPTION_MASS_RATIO(base) CV_SELECTION_ROW(base, "mass-ratio", cv_set_number, mass_ratio)
 
 void cv_selection_init(cv_selection *s);
 void cv_selection_clear(cv_selection *s);

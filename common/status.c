@@ -1,5 +1,6 @@
 #include "common/status.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -10,6 +11,9 @@ cv_status cv_fail(cv_message *why, cv_status code, const char *format, ...)
         va_start(args, format);
         if (vsnprintf(why->text, sizeof why->text, format, args) < 0)
             why->text[0] = '\0';
+        for (char *c = why->text; *c != '\0'; ++c)
+            if (iscntrl((unsigned char)*c)) /* of a file name, say */
+                *c = '?';
         va_end(args);
     }
     return code;
