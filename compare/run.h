@@ -1,0 +1,59 @@
+/* Both methods over every case, damping level and mass ratio of a case file, judged. */
+#ifndef CRITVEL_COMPARE_RUN_H
+#define CRITVEL_COMPARE_RUN_H
+
+#include "common/casefile.h"
+#include "compare/countcheck.h"
+#include "compare/judge.h"
+#include "compare/pool.h"
+
+/* What was found about one mass ratio. */
+typedef struct {
+    cmp_verdict verdict;
+    cmp_counts counts;
+    mpfr_t residual; /* largest |eta_M zeta - 1| of any transition put back into either zeta; 0: none was */
+} cmp_result;
+
+/* One damping level of a case; arrays by mass ratio, in the order of the case. */
+typedef struct {
+    cv_params params;
+    cmp_list *lists[CMP_METHODS];
+    cmp_result *results;
+    cmp_effort effort[CMP_METHODS];
+} cmp_level;
+
+typedef struct {
+    const cv_case *from; /* inside the case file */
+    size_t level_count;
+    cmp_level *levels;
+} cmp_case;
+
+typedef struct {
+    const cv_casefile *file; /* must outlive the run */
+    const cmp_method *methods[CMP_METHODS];
+    size_t case_count;
+    cmp_case *cases;
+} cmp_run;
+
+/* Everything empty but allocated. case_name NULL: all cases. damping not NULL: one level per case with
+ * eta_p = eta_b = eta_f = damping instead of those of the file. On failure nothing is allocated. */
+cv_status cmp_run_init(cmp_run *out, const cv_casefile *file, const char *case_name, const cv_number *damping,
+                       const cmp_method *const methods[CMP_METHODS], cv_message *why);
+void cmp_run_clear(cmp_run *run);
+
+/* Finds the transitions by both methods, then judges, puts back and counts. The outcome is independent of the
+ * number of threads, cpu_seconds excepted. CV_OK whatever the verdicts. */
+cv_status cmp_run_find(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why);
+cv_status cmp_run_judge(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why);
+
+/* Verdicts counted over a run. */
+typedef struct {
+    size_t total, of_kind[3]; /* by cmp_kind */
+    double fewest_digits;     /* among the agreeing; infinite if there are none */
+    double largest_residual;  /* log10; -infinity if nothing was put back */
+    cmp_kind worst;
+} cmp_summary;
+
+void cmp_run_summary(cmp_summary *out, const cmp_run *run);
+
+#endif
