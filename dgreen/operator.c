@@ -1,0 +1,150 @@
+#include "dgreen/operator.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why)
+{
+    dg_track *t = calloc(1, sizeof *t);
+    *out = t;
+    if (t == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    cv_params_init(&t->exact);
+    cv_params_set(&t->exact, p);
+    t->mu_s = cv_number_get_double(&p->mu_s);
+    t->mu_b = cv_number_get_double(&p->mu_b);
+    t->kappa_p = cv_number_get_double(&p->kappa_p);
+    t->kappa_b = cv_number_get_double(&p->kappa_b);
+    t->eta_p = cv_number_get_double(&p->eta_p);
+    t->eta_b = cv_number_get_double(&p->eta_b);
+    t->eta_f = cv_number_get_double(&p->eta_f);
+    t->eta_s = cv_number_get_double(&p->eta_s);
+    t->eta_N = cv_number_get_double(&p->eta_N);
+    t->damped = !cv_params_undamped(p);
+    return CV_OK;
+}
+
+void dg_track_free(dg_track *t)
+{
+    if (t == NULL)
+        return;
+    cv_params_clear(&t->exact);
+    free(t);
+}
+
+/* A polynomial in y with the sizes of its coefficients; the degree is known where it is used. */
+typedef struct {
+    double re[DG_DEGREE + 1], im[DG_DEGREE + 1], size[DG_DEGREE + 1];
+} polynomial;
+
+/* sum += factor * a * b */
+static inline void add_product(polynomial *sum, double factor, const polynomial *a, int degree_a,
+                               const polynomial *b, int degree_b)
+{
+    for (int i = 0; i <= degree_a; i++) {
+        const double re = factor * a->re[i], im = factor * a->im[i], size = factor * a->size[i];
+        for (int j = 0; j <= degree_b; j++) {
+            sum->re[i + j] += re * b->re[j] - im * b->im[j];
+            sum->im[i + j] += re * b->im[j] + im * b->re[j];
+            sum->size[i + j] += size * b->size[j];
+        }
+    }
+}
+
+static inline void add(polynomial *sum, const polynomial *a, int degree)
+{
+    for (int i = 0; i <= degree; i++) {
+        sum->re[i] += a->re[i];
+        sum->im[i] += a->im[i];
+        sum->size[i] += a->size[i];
+    }
+}
+
+/* s = i (w - alpha y), w = -i qbar */
+typedef struct {
+    double alpha, w_re, w_im, w_abs;
+    double w2_re, w2_im, w2_abs;
+} shift;
+
+/* sum += factor * s^2 */
+static inline void add_square(polynomial *sum, double factor, const shift *s)
+{
+    sum->re[0] -= factor * s->w2_re;
+    sum->im[0] -= factor * s->w2_im;
+    sum->size[0] += factor * s->w2_abs;
+    sum->re[1] += 2 * factor * s->alpha * s->w_re;
+    sum->im[1] += 2 * factor * s->alpha * s->w_im;
+    sum->size[1] += 2 * factor * s->alpha * s->w_abs;
+    sum->re[2] -= factor * s->alpha * s->alpha;
+    sum->size[2] += factor * s->alpha * s->alpha;
+}
+
+/* sum += 2 eta s + kappa */
+static inline void add_spring(polynomial *sum, double eta, double kappa, const shift *s)
+{
+    sum->re[0] += kappa - 2 * eta * s->w_im;
+    sum->im[0] += 2 * eta * s->w_re;
+    sum->size[0] += kappa + 2 * eta * s->w_abs;
+    sum->im[1] -= 2 * eta * s->alpha;
+    sum->size[1] += 2 * eta * s->alpha;
+}
+
+static void set_shift(shift *s, double alpha, double complex qbar)
+{
+    s->alpha = alpha;
+    s->w_re = cimag(qbar);
+    s->w_im = -creal(qbar);
+    s->w2_re = s->w_re * s->w_re - s->w_im * s->w_im;
+    s->w2_im = 2 * s->w_re * s->w_im;
+    s->w2_abs = s->w_re * s->w_re + s->w_im * s->w_im;
+    s->w_abs = sqrt(s->w2_abs);
+}
+
+static void set_beam(polynomial *a, const dg_track *t, const shift *s)
+{
+    add_square(a, 4, s);
+    a->re[2] -= 4 * t->eta_N;
+    a->size[2] += 4 * fabs(t->eta_N);
+    a->re[4] = 1;
+    a->size[4] = 1;
+}
+
+static void set_foundation(polynomial *f, const dg_track *t, const shift *s)
+{
+    add_spring(f, t->eta_f, 1, s);
+    add_square(f, t->mu_b, s);
+    f->re[2] += t->eta_s;
+    f->size[2] += t->eta_s;
+}
+
+void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double complex qbar)
+{
+    shift s;
+    set_shift(&s, alpha, qbar);
+    polynomial beam = {0}, pad = {0}, sleeper = {0}, ballast = {0}, foundation = {0};
+    set_beam(&beam, t, &s);
+    add_spring(&pad, t->eta_p, t->kappa_p, &s);
+    add_square(&sleeper, t->mu_s, &s);
+    add_spring(&ballast, t->eta_b, t->kappa_b, &s);
+    set_foundation(&foundation, t, &s);
+
+    polynomial c = foundation, inner = {0}, r, delta = {0};
+    add(&c, &ballast, 1);
+    add_product(&inner, 1, &sleeper, 2, &c, 2);
+    add_product(&inner, 1, &ballast, 1, &foundation, 2);
+    r = inner;
+    add_product(&r, 1, &pad, 1, &c, 2);
+    add_product(&delta, 4, &pad, 1, &inner, 4);
+    add_product(&delta, 1, &beam, 4, &r, 4);
+
+    memcpy(op->re, delta.re, sizeof op->re);
+    memcpy(op->im, delta.im, sizeof op->im);
+    memcpy(op->size, delta.size, sizeof op->size);
+    memcpy(op->r_re, r.re, sizeof op->r_re);
+    memcpy(op->r_im, r.im, sizeof op->r_im);
+    memcpy(op->r_size, r.size, sizeof op->r_size);
+    const double inertia = alpha * alpha * t->mu_b;
+    op->degree = alpha > 0 ? DG_DEGREE : t->eta_s > 0 ? 6 : 4;
+    op->relative_a0 = alpha > 0 ? (inertia - t->eta_s) / (inertia + t->eta_s) : -1;
+}

@@ -1,0 +1,53 @@
+/* The scalar operators of the D-decomposition method: Delta (19) and R (23) as polynomials in lambda.
+ *
+ * Convention. All dimensionless. W(xi, qbar) is the Laplace image, kernel exp(-qbar tau); a solution of
+ * Delta W = 0 is exp(lambda xi). With s = qbar - alpha lambda and lambda = i y the entries of (17) are, up to
+ * the factor 4 of its first row, sums of
+ *     A = lambda^4 + 4 eta_N lambda^2 + 4 s^2      D2 = 2 eta_p s + kappa_p     D4 = 2 eta_b s + kappa_b
+ *     D3 = mu_s s^2                                F  = mu_b s^2 + 2 eta_f s + 1 - eta_s lambda^2
+ * (the print of (17) has "8 alpha s D" for 8 alpha qbar D, and L_{xi,s,23} for L_{xi,qbar,23}).
+ *     R     = L22 L33 - L23 L32        = (D2 + D3) C + D4 F,   C = D4 + F                              (23)
+ *     Delta = L11 R - L12 L21 L33      = A R + 4 D2 (D3 C + D4 F)                                      (19)
+ * The right-hand forms are the left-hand ones after the equal and opposite products have been struck out,
+ * so that stiff pads and ballast (kappa 1e4) do not cancel against the soft foundation.
+ *
+ * Storage: coefficients of powers of y = -i lambda, ascending: Delta(i y) = sum_k c[k] y^k. Hence
+ * a_j = c[8-j] / i^(8-j) and r_j likewise. For qbar = i q and no damping every c[k] is real; damping enters
+ * the imaginary parts in first order, so that tiny damping keeps all its digits. Re lambda > 0 means Im y <
+ * 0.
+ */
+#ifndef CRITVEL_DGREEN_OPERATOR_H
+#define CRITVEL_DGREEN_OPERATOR_H
+
+#include <complex.h>
+
+#include "common/params.h"
+
+enum { DG_DEGREE = 8, DG_R_DEGREE = 4 };
+
+/* The parameters of one track: exact, and rounded to double. */
+typedef struct {
+    cv_params exact;
+    double mu_s, mu_b, kappa_p, kappa_b, eta_p, eta_b, eta_f, eta_s, eta_N;
+    int damped; /* at least one damping ratio is positive */
+} dg_track;
+
+/* Copies p; p must have passed cv_params_check. CV_FAILED when out of memory. *out is NULL on failure. */
+cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why);
+void dg_track_free(dg_track *t); /* NULL allowed */
+
+/* Delta and R in double at one (alpha, qbar).
+ * Post-condition: each computed coefficient differs from the exact one by at most 48 u times its size, and
+ * evaluating by Horner at a double y adds at most 30 u times the size polynomial at |y| (u = 2^-53). */
+typedef struct {
+    double re[DG_DEGREE + 1], im[DG_DEGREE + 1]; /* Delta(i y) */
+    double size[DG_DEGREE + 1];                  /* the same sums with every term replaced by its modulus */
+    double r_re[DG_R_DEGREE + 1], r_im[DG_R_DEGREE + 1], r_size[DG_R_DEGREE + 1]; /* R(i y) */
+    int degree;         /* 8; at alpha = 0: 6, or 4 where eta_s = 0 */
+    double relative_a0; /* (alpha^2 mu_b - eta_s) / (alpha^2 mu_b + eta_s), 0 at the degree drop */
+} dg_operator;
+
+/* Any alpha >= 0 and any qbar. */
+void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double complex qbar);
+
+#endif

@@ -1,0 +1,44 @@
+/* The roots lambda_i of Delta in double, and discs that contain them.
+ *
+ * Roots are kept as y = -i lambda (dgreen/operator.h). Near the degree drop alpha^2 mu_b = eta_s one root
+ * runs through infinity; there it is kept as its reciprocal u = 1/y, in the last slot, and "far" is set. */
+#ifndef CRITVEL_DGREEN_ROOTS_H
+#define CRITVEL_DGREEN_ROOTS_H
+
+#include "dgreen/operator.h"
+
+typedef struct {
+    int count; /* the degree; includes the far root */
+    int far;   /* 1: slot count-1 holds u = 1/y of the root that is, or is close to, infinity */
+    double re[DG_DEGREE], im[DG_DEGREE];
+} dg_roots;
+
+/* For each root: the value of Delta' at the approximation and what is known about the exact root.
+ * For the far root "derivative" belongs to the reversed polynomial u^8 Delta(i/u), and radius to u. */
+typedef struct {
+    double d_re[DG_DEGREE], d_im[DG_DEGREE]; /* d Delta(i y)/dy at the approximation */
+    double d_error[DG_DEGREE]; /* relative: of d_re + i d_im as a value of Delta' at the exact root */
+    double radius[DG_DEGREE];  /* the disc around the approximation holds exactly one exact root */
+} dg_discs;
+
+/* Eigenvalues of the balanced companion matrix (LAPACK zhseqr), not polished. CV_UNDECIDED where LAPACK does
+ * not converge or the coefficients overflow. */
+cv_status dg_roots_cold(dg_roots *roots, const dg_operator *op);
+
+/* Simultaneous iteration (Ehrlich-Aberth, all roots, each update used at once) from the values in roots,
+ * which may come from a neighbouring point; converges with third order to simple roots. Changes between near
+ * and far representation as op asks for. CV_UNDECIDED when not converged after DG_MAX_SWEEPS; roots are then
+ * useless. */
+enum { DG_MAX_SWEEPS = 12 };
+cv_status dg_roots_polish(dg_roots *roots, const dg_operator *op);
+
+/* The same for the cold start, which may begin far away: more sweeps. */
+cv_status dg_roots_polish_cold(dg_roots *roots, const dg_operator *op);
+
+/* Method: a polynomial f of degree at most n has a root within n |f(y)/f'(y)| of y. All n discs disjoint:
+ * each holds exactly one root. Then f'/f = sum 1/(y - y_k) bounds the distance to that one root without the
+ * factor n. The rounding errors of the coefficients and of the evaluation are included. CV_UNDECIDED when
+ * discs meet (clusters closer than the rounding allows). */
+cv_status dg_roots_enclose(dg_discs *discs, const dg_roots *roots, const dg_operator *op);
+
+#endif

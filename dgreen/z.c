@@ -1,0 +1,112 @@
+#include "dgreen/z.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "dgreen/follow.h"
+#include "dgreen/residues.h"
+
+static const double UNIT = DBL_EPSILON / 2;
+
+cv_status dg_follow_new(dg_follow **out, cv_message *why)
+{
+    *out = calloc(1, sizeof **out);
+    if (*out == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    (*out)->counters.largest_precision = DBL_MANT_DIG;
+    return CV_OK;
+}
+
+void dg_follow_free(dg_follow *f)
+{
+    free(f);
+}
+
+dg_counters dg_follow_counters(const dg_follow *f)
+{
+    return f->counters;
+}
+
+/* zeta = 4 qbar^2 sum R/Delta'(lambda) = -4 i w^2 sum R/(d Delta(i y)/dy), w = -i qbar. For real w (qbar = i
+ * q) each part of zeta comes from one part of the sum. */
+static void scale(dg_value *value, const dg_residue_sum *sum, double complex qbar)
+{
+    const double w_re = cimag(qbar), w_im = -creal(qbar);
+    const double f_re = 8 * w_re * w_im, f_im = -4 * (w_re - w_im) * (w_re + w_im);
+    value->re = f_re * sum->re - f_im * sum->im;
+    value->im = f_re * sum->im + f_im * sum->re;
+    const double size = fabs(f_re) + fabs(f_im);
+    const double common = size * sum->error * (1 + 16 * UNIT);
+    const double cross = 8 * UNIT;
+    value->re_error = common + cross * (fabs(f_re * sum->re) + fabs(f_im * sum->im));
+    value->im_error = common + cross * (fabs(f_re * sum->im) + fabs(f_im * sum->re));
+}
+
+/* Damping or Re qbar > 0 leave no lambda on the imaginary axis below buckling, so the count depends on the
+ * sign of a0 alone; the far root's side is that sign. */
+static int count_is_wrong(const dg_residues *sums, const dg_operator *op)
+{
+    if (op->degree < DG_DEGREE)
+        return sums->right_count != op->degree / 2;
+    if (sums->right_count + sums->left_count < DG_DEGREE)
+        return sums->right_count != 5;
+    if (!(fabs(op->relative_a0) > 16 * UNIT))
+        return sums->right_count != 5 && sums->right_count != 6;
+    return sums->right_count != (op->relative_a0 > 0 ? 6 : 5);
+}
+
+static cv_status evaluate(dg_value *value, const dg_roots *roots, const dg_discs *discs,
+                          const dg_operator *op, double complex qbar)
+{
+    dg_residues sums;
+    const cv_status status = dg_residues_sum(&sums, op, roots, discs);
+    if (status != CV_OK)
+        return status;
+    if (count_is_wrong(&sums, op))
+        return CV_FAILED;
+    scale(value, &sums.right, qbar);
+    value->right_count = sums.right_count;
+    return isfinite(value->re) && isfinite(value->im) ? CV_OK : CV_UNDECIDED;
+}
+
+/* Roots with discs: continued from the last point, or from nothing where that fails. */
+static cv_status find_roots(dg_follow *follow, dg_discs *discs, const dg_operator *op)
+{
+    dg_roots *roots = &follow->roots;
+    if (follow->warm && dg_roots_polish(roots, op) == CV_OK && dg_roots_enclose(discs, roots, op) == CV_OK)
+        return CV_OK;
+    follow->counters.cold_starts++;
+    cv_status status = dg_roots_cold(roots, op);
+    if (status == CV_OK)
+        status = dg_roots_polish_cold(roots, op);
+    follow->warm = status == CV_OK;
+    return status == CV_OK ? dg_roots_enclose(discs, roots, op) : status;
+}
+
+cv_status dg_zeta_double(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
+                         double complex qbar)
+{
+    if (!(alpha >= 0 && creal(qbar) >= 0))
+        return CV_BAD_INPUT;
+    dg_operator op;
+    dg_discs discs;
+    dg_operator_set(&op, track, alpha, qbar);
+    follow->counters.evaluations++;
+    const cv_status status = find_roots(follow, &discs, &op);
+    return status == CV_OK ? evaluate(value, &follow->roots, &discs, &op, qbar) : status;
+}
+
+static int good_enough(const dg_value *v, double tol_re, double tol_im)
+{
+    return v->re_error <= tol_re * fabs(v->re) && v->im_error <= tol_im * fabs(v->im);
+}
+
+cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
+                           double complex qbar, double tol_re, double tol_im)
+{
+    const cv_status status = dg_zeta_double(value, follow, track, alpha, qbar);
+    if (status == CV_OK && !good_enough(value, tol_re, tol_im))
+        return CV_UNDECIDED;
+    return status;
+}
