@@ -117,14 +117,22 @@ static void mode_set(mode *m, const chain *c, const sa_dispersion *d)
     m->mass = m->v[0] * m->v[0] + d->mu_s * m->v[1] * m->v[1] + d->mu_b * m->v[2] * m->v[2];
 }
 
-/* Rayleigh quotient iteration inside a bracket that is known to hold eigenvalue k alone; bisection otherwise.
- * The bracket follows from the counts, so that the limit is eigenvalue k whatever the steps were. */
+/* Eigenvalue k, and no other, lies within 64 units in the last place of L. */
+static int is_eigenvalue(const sa_dispersion *d, int k, long double p, long double L)
+{
+    return sa_dispersion_count(d, p, L * (1 - 64 * LDBL_EPSILON)) == k &&
+           sa_dispersion_count(d, p, L * (1 + 64 * LDBL_EPSILON)) == k + 1;
+}
+
+/* Rayleigh quotient iteration inside a bracket that holds eigenvalue k, bisection where it leaves the bracket
+ * or where other eigenvalues are still inside; what it converges to is believed only after the counts. */
 static int find_square(long double *square, const sa_dispersion *d, int k, long double p, long double guess)
 {
     long double low = 0, x = p * p;
     long double high = 2 * (fabsl(x * (x / 4 - d->eta_N)) + d->kappa_p + (d->kappa_p + d->kappa_b) / d->mu_s +
                             (d->kappa_b + 1 + d->eta_s * x) / d->mu_b);
-    long double L = guess > 0 && guess < high ? guess : high / 2;
+    int warm = guess > 0 && guess < high;
+    long double L = warm ? guess : high / 2;
     int below = 0, above = SA_BRANCHES;
 
     for (int i = 0; i < 400; i++) {
@@ -142,17 +150,20 @@ static int find_square(long double *square, const sa_dispersion *d, int k, long 
         }
         mode_set(&m, &c, d);
         long double next = L + c.twist[m.at] / m.mass;
-        int alone = below == k && above == k + 1;
-        if (alone && fabsl(next - L) <= 4 * LDBL_EPSILON * L) {
+        int alone = (below == k && above == k + 1) || (warm && i < 4);
+        if (alone && fabsl(next - L) <= 8 * LDBL_EPSILON * L && is_eigenvalue(d, k, p, next)) {
             *square = next;
             return 1;
         }
-        if (alone && high - low <= 2 * LDBL_EPSILON * high) {
+        if (high - low <= 2 * LDBL_EPSILON * high) {
             *square = L;
-            return 1;
+            return below == k && above == k + 1;
         }
-        int useful = (alone || (i < 4 && guess > 0)) && next > low && next < high;
-        L = useful ? next : low > 0 ? sqrtl(low) * sqrtl(high) : high / 1024;
+        if (alone && next > low && next < high) {
+            L = next;
+        } else {
+            L = low > 0 ? sqrtl(low) * sqrtl(high) : high / 1024;
+        }
     }
     return 0;
 }
