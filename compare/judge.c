@@ -125,14 +125,15 @@ static void judge_pair(cmp_verdict *v, const cmp_transition *a, const cmp_transi
                            names[1]);
 }
 
-/* Transitions without a partner. Where a list is incomplete by its own account they prove nothing. */
+/* Transitions without a partner; judged first, because a missing one upsets the numbers of roots of the
+ * others. Where a list is incomplete by its own account they prove nothing. */
 static void judge_single(cmp_verdict *v, const cmp_list *const lists[], const cmp_pairing *pairing, int m,
                          const char *const names[])
 {
     if (lists[0]->status != CV_OK || lists[1]->status != CV_OK)
         return;
     for (size_t i = 0; i < lists[m]->count; i++)
-        if (pairing->partner[m][i] == SIZE_MAX)
+        if (pairing->partner[m][i] == SIZE_MAX && usable(&lists[m]->items[i]))
             cmp_verdict_worsen(
                 v, CMP_DISAGREE, "only %s has alpha = %.15g, q = %.15g (unstable roots %d to %d)", names[m],
                 mpfr_get_d(lists[m]->items[i].alpha, MPFR_RNDN), mpfr_get_d(lists[m]->items[i].q, MPFR_RNDN),
@@ -151,12 +152,12 @@ void cmp_judge(cmp_verdict *v, const cmp_list *const lists[CMP_METHODS], const c
                const char *const names[CMP_METHODS], int digits)
 {
     for (int m = 0; m < CMP_METHODS; m++)
+        judge_single(v, lists, pairing, m, names);
+    for (int m = 0; m < CMP_METHODS; m++)
         judge_list(v, lists[m], names[m], digits);
     for (size_t i = 0; i < lists[0]->count; i++)
         if (pairing->partner[0][i] != SIZE_MAX)
             judge_pair(v, &lists[0]->items[i], &lists[1]->items[pairing->partner[0][i]], names, digits);
-    for (int m = 0; m < CMP_METHODS; m++)
-        judge_single(v, lists, pairing, m, names);
     if (lists[0]->status == CV_OK && lists[1]->status == CV_OK)
         judge_limit(v, lists, pairing);
     if (isinf(v->digits))
