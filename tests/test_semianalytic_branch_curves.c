@@ -11,8 +11,13 @@
 
 enum { DENSE = 6000, ROOM = 64 };
 
-static const double paper_case[4][6] = {
-    {6, 35, 300, 7, 0, 0}, {6, 35, 30, 7, 0, 0}, {6, 5, 0.03, 3, 0, 0}, {3, 10, 0.03, 0.1, 0, 0}};
+/* Table 1 of the paper, and a track two of whose cusps lie between neighbouring samples. */
+enum { FIXED = 5 };
+static const double fixed_track[FIXED][6] = {{6, 35, 300, 7, 0, 0},
+                                             {6, 35, 30, 7, 0, 0},
+                                             {6, 5, 0.03, 3, 0, 0},
+                                             {3, 10, 0.03, 0.1, 0, 0},
+                                             {2.696061, 28.15135, 0.8258916, 1416.077, 74.00978, 0}};
 
 typedef struct {
     double p, omega[3], speed[3];
@@ -116,7 +121,7 @@ START_TEST(points_are_double_roots_of_d3)
 
     for (int c = 0; c < 4; c++) {
         sa_branch_curves curves;
-        ck_assert(build(&curves, paper_case[c]));
+        ck_assert(build(&curves, fixed_track[c]));
         for (int i = 0; i < 50; i++) {
             sa_branch_point point[ROOM];
             double alpha = log_uniform(rng, 0.02, 2);
@@ -148,7 +153,7 @@ START_TEST(slopes_are_those_of_the_envelope)
         sa_branch_curves curves;
         sa_branch_point here[ROOM], next[ROOM];
         double alpha = log_uniform(rng, 0.03, 1.9), h = 1e-7 * alpha;
-        ck_assert(build(&curves, paper_case[i % 4]));
+        ck_assert(build(&curves, fixed_track[i % 4]));
         int count = sa_branch_points(here, ROOM, &curves, alpha);
         int same = sa_branch_points(next, ROOM, &curves, alpha + h);
         for (int j = 0; j < count && count == same; j++) {
@@ -175,8 +180,8 @@ START_TEST(points_are_complete)
     cv_params_init(&params);
     for (int track = 0; track < 60; track++) {
         sa_branch_curves curves;
-        if (track < 4) {
-            set_track(&params, paper_case[track]);
+        if (track < FIXED) {
+            set_track(&params, fixed_track[track]);
         } else {
             random_track(&params, rng);
         }
@@ -217,8 +222,8 @@ START_TEST(order_changes_at_special_velocities_only)
     cv_params_init(&params);
     for (int track = 0; track < 300; track++) {
         sa_branch_curves curves;
-        if (track < 4) {
-            set_track(&params, paper_case[track]);
+        if (track < FIXED) {
+            set_track(&params, fixed_track[track]);
         } else {
             random_track(&params, rng);
         }
@@ -252,6 +257,33 @@ START_TEST(order_changes_at_special_velocities_only)
 }
 END_TEST
 
+/* Two cusps whose velocities differ by 6e-8: omega_1' rises, falls and rises again by less than that. */
+START_TEST(nearly_equal_cusps_are_both_found)
+{
+    sa_branch_curves curves;
+    int turns = 0, listed = 0;
+    dense_point a, b, c;
+
+    ck_assert(build(&curves, fixed_track[4]));
+    const sa_dispersion *d = &curves.grid.track;
+    brute(&a, d, 2.30);
+    brute(&b, d, 2.305);
+    for (int i = 2; i <= 40; i++) {
+        brute(&c, d, 2.30 + i * 0.005);
+        turns += (c.speed[1] > b.speed[1]) != (b.speed[1] > a.speed[1]);
+        a = b;
+        b = c;
+    }
+    for (size_t i = 0; i < curves.special_count; i++) {
+        const sa_special *s = &curves.special[i];
+        listed += s->kind == SA_SPECIAL_CUSP && s->k == 1 && s->p > 2.3 && s->p < 2.5;
+    }
+    ck_assert_int_eq(turns, 2);
+    ck_assert_int_eq(listed, 2);
+    sa_branch_curves_clear(&curves);
+}
+END_TEST
+
 static size_t count_special(const sa_branch_curves *curves, sa_special_kind kind, double found[ROOM])
 {
     size_t count = 0;
@@ -271,16 +303,16 @@ START_TEST(resonances_of_the_paper)
     double a[ROOM];
     sa_branch_curves curves;
 
-    ck_assert(build(&curves, paper_case[0]));
+    ck_assert(build(&curves, fixed_track[0]));
     ck_assert_uint_eq(count_special(&curves, SA_SPECIAL_RESONANCE, a), 4);
     sa_branch_curves_clear(&curves);
-    ck_assert(build(&curves, paper_case[2]));
+    ck_assert(build(&curves, fixed_track[2]));
     ck_assert_uint_eq(count_special(&curves, SA_SPECIAL_RESONANCE, a), 3);
     ck_assert_double_eq_tol(a[0], 0.444855, 1e-6);
     ck_assert_double_eq_tol(a[1], 0.745475, 1e-6);
     ck_assert_double_eq_tol(a[2], 0.750040, 1e-6);
     sa_branch_curves_clear(&curves);
-    ck_assert(build(&curves, paper_case[3]));
+    ck_assert(build(&curves, fixed_track[3]));
     ck_assert_uint_eq(count_special(&curves, SA_SPECIAL_RESONANCE, a), 3);
     ck_assert_double_eq_tol(a[0], 0.437, 5e-4);
     ck_assert_double_eq_tol(a[1], 0.442, 5e-4);
@@ -300,6 +332,7 @@ int main(void)
     tcase_add_test(tests, slopes_are_those_of_the_envelope);
     tcase_add_test(tests, points_are_complete);
     tcase_add_test(tests, order_changes_at_special_velocities_only);
+    tcase_add_test(tests, nearly_equal_cusps_are_both_found);
     tcase_add_test(tests, resonances_of_the_paper);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
