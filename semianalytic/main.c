@@ -1,0 +1,77 @@
+/* critvel-semianalytic: the table of its subcommands. */
+#include <string.h>
+
+#include "semianalytic/commands.h"
+
+static const struct {
+    const char *name;
+    sa_command *run;
+} commands[] = {
+    {"kernel", sa_command_kernel},
+};
+
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static const char help[] =
+    "critvel-semianalytic: a mass moving on a beam on three viscoelastic layers, by poles in the wave "
+    "number.\n"
+    "\n"
+    "usage: critvel-semianalytic COMMAND FILE [OPTIONS]\n"
+    "\n"
+    "  kernel       K(xi, q) of (13) and zeta = q^2 K(0, q) / (2 pi) at one velocity and frequency\n"
+    "\n"
+    "FILE is a case file, e.g. data/paper.ini.\n"
+    "\n"
+    "examples:\n"
+    "  critvel-semianalytic kernel data/paper.ini --case 1 --damping 1e-10 --alpha 0.3 --frequency 0.22\n"
+    "  critvel-semianalytic kernel data/paper.ini --case 1 --damping 0 --alpha 0.3 --frequency 0.22 --digits "
+    "60\n"
+    "  critvel-semianalytic kernel data/paper.ini --alpha 0.3 --frequency 0.22 --xi -1.5 --format json\n"
+    "\n"
+    "options:\n"
+    "  --case NAME      the section [case NAME] or [track NAME] (default: the first of the file)\n"
+    "  --damping X      eta_p = eta_b = eta_f = X, 0 allowed (default: the file's first level)\n"
+    "  --alpha X        velocity ratio of (4)\n"
+    "  --frequency X    q, dimensionless; qbar = i q\n"
+    "  --xi X           distance from the load, dimensionless (default 0)\n"
+    "  --digits N       significant digits of each part (default: digits of the file)\n"
+    "  --format FORMAT  text or json\n"
+    "  --help, --version\n"
+    "\n"
+    "Real and imaginary part are each right to all digits printed. Damping 0 is the limit q - i0.\n"
+    "exit status: 0 done, 1 undecided, 2 wrong usage or input, 3 internal or I/O failure\n";
+
+static cv_status work(const void *options, const cv_arguments *arguments, FILE *out, FILE *log,
+                      cv_message *why)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(commands[i].name, arguments->command) == 0)
+            return commands[i].run(options, arguments, out, log, why);
+    return cv_fail(why, CV_BAD_INPUT, "unknown command '%s'", arguments->command);
+}
+
+int main(int argc, char **argv)
+{
+    static const cv_option table[] = {
+        CV_OPTION_CASE(offsetof(sa_options, selection)),
+        CV_OPTION_DAMPING(offsetof(sa_options, selection)),
+        CV_OPTION_ALPHA(offsetof(sa_options, selection)),
+        CV_OPTION_FREQUENCY(offsetof(sa_options, selection)),
+        CV_OPTION_DIGITS(offsetof(sa_options, selection)),
+        CV_OPTION_FORMAT(offsetof(sa_options, selection)),
+        {"xi", cv_set_number, offsetof(sa_options, xi), 0},
+        {NULL, NULL, 0, 0},
+    };
+    const char *names[COMMANDS + 1] = {NULL};
+    for (int i = 0; i < COMMANDS; i++)
+        names[i] = commands[i].name;
+    const cv_program program = {"critvel-semianalytic", help, names, table, work};
+    sa_options options;
+    cv_selection_init(&options.selection);
+    options.xi.given = 0;
+    cv_number_init(&options.xi.value);
+    int status = cv_main(&program, &options, argc, argv);
+    cv_number_clear(&options.xi.value);
+    cv_selection_clear(&options.selection);
+    return status;
+}
