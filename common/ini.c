@@ -99,14 +99,14 @@ static void cut_comment(char *s)
         }
 }
 
-static int add_section(reader *r, const char *name)
+static int add_section(reader *r, const char *name, size_t length)
 {
     cv_ini *ini = r->ini;
     cv_ini_section *larger = realloc(ini->sections, (ini->count + 1) * sizeof *larger);
     if (larger == NULL)
         return out_of_memory(r);
     ini->sections = larger;
-    char *copy = strdup(name);
+    char *copy = strndup(name, length);
     if (copy == NULL)
         return out_of_memory(r);
     ini->sections[ini->count++] = (cv_ini_section){.name = copy, .line = r->line};
@@ -114,22 +114,21 @@ static int add_section(reader *r, const char *name)
 }
 
 /* A stripped line that begins with '[' */
-static int open_section(reader *r, char *s)
+static int open_section(reader *r, const char *s)
 {
-    char *end = strchr(s, ']');
+    const char *end = strchr(s, ']');
     if (end == NULL || end[1] != '\0') {
         WRONG(r, "expected '[section]' and nothing else on the line");
         return 0;
     }
-    *end = '\0';
-    char *name = strip(s + 1);
-    if (strlen(name) > MAX_SECTION_NAME) {
+    if (end - s - 1 > MAX_SECTION_NAME) {
         WRONG(r, "section name of more than %d bytes", MAX_SECTION_NAME);
         return 0;
     }
-    const int added = add_section(r, name);
-    *end = ']';
-    return added;
+    const char *name = s + 1 + strspn(s + 1, " \t");
+    while (end > name && (end[-1] == ' ' || end[-1] == '\t'))
+        --end;
+    return add_section(r, name, (size_t)(end - name));
 }
 
 /* A stripped line that is not empty and not a section */
