@@ -126,7 +126,7 @@ START_TEST(long_list)
 {
     char text[8192] = "[run]\ndamping = 0.1 ; first\nmass_ratio =";
     for (int i = 1; i <= 700; ++i)
-        snprintf(text + strlen(text), 24, " %d.%03d", i, i);
+        snprintf(text + strlen(text), 32, " %d.%03d", i, i);
     strcat(text, " ; and a comment\n" CASE);
     cv_casefile f;
     read_valid(&f, text);
@@ -134,7 +134,7 @@ START_TEST(long_list)
     assert_text(&f.cases[0].mass_ratios[0], "1.001");
     assert_text(&f.cases[0].mass_ratios[699], "700.7");
     for (int i = 0; i < 700; ++i) {
-        char expected[24];
+        char expected[32];
         snprintf(expected, sizeof expected, "%d.%03d", i + 1, i + 1);
         cv_number x;
         cv_message why;
