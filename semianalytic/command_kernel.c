@@ -5,13 +5,19 @@
 #include "semianalytic/commands.h"
 #include "semianalytic/decimal.h"
 #include "semianalytic/kernel.h"
+#include "semianalytic/quadrature.h"
 
 /* What is printed. */
 typedef struct {
     const cv_choice *choice;
     const sa_options *options;
     mpc_t zeta, kernel;
+    double complex quadrature; /* where options->quadrature is set */
+    double quadrature_error;
 } answer;
+
+/* relative to |K|; what double precision and a few milliseconds can do */
+static const double quadrature_tolerance = 1e-10;
 
 static json_t *json_complex(const mpc_t z, int digits)
 {
@@ -49,6 +55,10 @@ static cv_status write_json(FILE *out, const answer *a, cv_message *why)
                   json_number(&s->alpha.value), "frequency", json_number(&s->frequency.value), "xi",
                   json_number(&a->options->xi.value), "digits", digits, "zeta", json_complex(a->zeta, digits),
                   "K", json_complex(a->kernel, digits));
+    if (root != NULL && a->options->quadrature)
+        json_object_set_new(root, "quadrature",
+                            json_pack("{s:f, s:f, s:f}", "re", creal(a->quadrature), "im",
+                                      cimag(a->quadrature), "error", a->quadrature_error));
     if (root == NULL || json_dumpf(root, out, JSON_INDENT(2)) != 0 || fputc('\n', out) == EOF) {
         json_decref(root);
         return cv_fail(why, CV_FAILED, "out of memory");
@@ -68,6 +78,9 @@ static int write_line(FILE *out, const char *label, const mpfr_t part, int digit
 static cv_status write_text(FILE *out, const answer *a, cv_message *why)
 {
     int digits = a->choice->digits;
+    if (a->options->quadrature)
+        fprintf(out, "%-8s %.12g\n%-8s %.12g\n%-8s %.1e\n", "Re K ~", creal(a->quadrature), "Im K ~",
+                cimag(a->quadrature), "error ~", a->quadrature_error);
     if (write_line(out, "Re K", mpc_realref(a->kernel), digits) &&
         write_line(out, "Im K", mpc_imagref(a->kernel), digits) &&
         write_line(out, "Re zeta", mpc_realref(a->zeta), digits) &&
@@ -85,6 +98,11 @@ static cv_status evaluate(answer *a, const sa_options *options, cv_message *why)
     status =
         sa_kernel_digits(a->zeta, a->kernel, track, &options->selection.alpha.value,
                          &options->selection.frequency.value, &options->xi.value, a->choice->digits, why);
+    if (status == CV_OK && options->quadrature)
+        status = sa_quadrature_kernel(&a->quadrature, &a->quadrature_error, track,
+                                      cv_number_get_double(&options->selection.alpha.value),
+                                      cv_number_get_double(&options->selection.frequency.value),
+                                      cv_number_get_double(&options->xi.value), quadrature_tolerance, why);
     sa_track_free(track);
     return status;
 }

@@ -8,6 +8,7 @@
 typedef struct {
     cv_selection selection;
     cv_optional_number xi; /* place relative to the load, dimensionless */
+    int quadrature;        /* kernel: K along the real axis too */
 } sa_options;
 
 /* As cv_work of common/cli.h. */

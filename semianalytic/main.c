@@ -1,4 +1,5 @@
 /* critvel-semianalytic: the table of its subcommands. */
+#include <gsl/gsl_errno.h>
 #include <string.h>
 
 #include "semianalytic/commands.h"
@@ -34,6 +35,7 @@ static const char help[] =
     "  --alpha X        velocity ratio of (4)\n"
     "  --frequency X    q, dimensionless; qbar = i q\n"
     "  --xi X           distance from the load, dimensionless (default 0)\n"
+    "  --quadrature     K also by numerical integration along the real p axis (damped tracks)\n"
     "  --digits N       significant digits of each part (default: digits of the file)\n"
     "  --format FORMAT  text or json\n"
     "  --help, --version\n"
@@ -60,6 +62,7 @@ int main(int argc, char **argv)
         CV_OPTION_DIGITS(offsetof(sa_options, selection)),
         CV_OPTION_FORMAT(offsetof(sa_options, selection)),
         {"xi", cv_set_number, offsetof(sa_options, xi), 0},
+        {"quadrature", cv_set_flag, offsetof(sa_options, quadrature), 1},
         {NULL, NULL, 0, 0},
     };
     const char *names[COMMANDS + 1] = {NULL};
@@ -67,8 +70,9 @@ int main(int argc, char **argv)
         names[i] = commands[i].name;
     const cv_program program = {"critvel-semianalytic", help, names, table, work};
     sa_options options;
+    gsl_set_error_handler_off();
     cv_selection_init(&options.selection);
-    options.xi.given = 0;
+    options.xi.given = options.quadrature = 0;
     cv_number_init(&options.xi.value);
     int status = cv_main(&program, &options, argc, argv);
     cv_number_clear(&options.xi.value);
