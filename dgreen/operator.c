@@ -4,14 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why)
+const mpfr_prec_t dg_ladder[DG_LADDER] = {127, 191, 255};
+
+static void set_doubles(dg_track *t)
 {
-    dg_track *t = calloc(1, sizeof *t);
-    *out = t;
-    if (t == NULL)
-        return cv_fail(why, CV_FAILED, "out of memory");
-    cv_params_init(&t->exact);
-    cv_params_set(&t->exact, p);
+    const cv_params *p = &t->exact;
     t->mu_s = cv_number_get_double(&p->mu_s);
     t->mu_b = cv_number_get_double(&p->mu_b);
     t->kappa_p = cv_number_get_double(&p->kappa_p);
@@ -21,7 +18,37 @@ cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why)
     t->eta_f = cv_number_get_double(&p->eta_f);
     t->eta_s = cv_number_get_double(&p->eta_s);
     t->eta_N = cv_number_get_double(&p->eta_N);
+}
+
+void dg_constants_init(dg_constants *c, const dg_track *t, mpfr_prec_t precision)
+{
+    const cv_params *p = &t->exact;
+    const cv_number *source[DG_PARAMETERS] = {&p->mu_s,  &p->mu_b,  &p->kappa_p, &p->kappa_b, &p->eta_p,
+                                              &p->eta_b, &p->eta_f, &p->eta_s,   &p->eta_N};
+    for (int i = 0; i < DG_PARAMETERS; i++) {
+        mpfr_init2(c->value[i], precision);
+        cv_number_get_mpfr(c->value[i], source[i]);
+    }
+}
+
+void dg_constants_clear(dg_constants *c)
+{
+    for (int i = 0; i < DG_PARAMETERS; i++)
+        mpfr_clear(c->value[i]);
+}
+
+cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why)
+{
+    dg_track *t = calloc(1, sizeof *t);
+    *out = t;
+    if (t == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    cv_params_init(&t->exact);
+    cv_params_set(&t->exact, p);
+    set_doubles(t);
     t->damped = !cv_params_undamped(p);
+    for (int i = 0; i < DG_LADDER; i++)
+        dg_constants_init(&t->ladder[i], t, dg_ladder[i]);
     return CV_OK;
 }
 
@@ -29,6 +56,8 @@ void dg_track_free(dg_track *t)
 {
     if (t == NULL)
         return;
+    for (int i = 0; i < DG_LADDER; i++)
+        dg_constants_clear(&t->ladder[i]);
     cv_params_clear(&t->exact);
     free(t);
 }

@@ -20,25 +20,53 @@
 #define CRITVEL_DGREEN_OPERATOR_H
 
 #include <complex.h>
+#include <mpfr.h>
 
 #include "common/params.h"
 
 enum { DG_DEGREE = 8, DG_R_DEGREE = 4 };
 
-/* The parameters of one track: exact, and rounded to double. */
+enum {
+    DG_MU_S,
+    DG_MU_B,
+    DG_KAPPA_P,
+    DG_KAPPA_B,
+    DG_ETA_P,
+    DG_ETA_B,
+    DG_ETA_F,
+    DG_ETA_S,
+    DG_ETA_N,
+    DG_PARAMETERS
+};
+
+/* The parameters at one precision, indexed by the names above */
+typedef struct {
+    mpfr_t value[DG_PARAMETERS];
+} dg_constants;
+
+/* Precisions (bits) of the escalation above double. One below a multiple of 64 is markedly faster in MPFR. */
+enum { DG_LADDER = 3 };
+extern const mpfr_prec_t dg_ladder[DG_LADDER]; /* 127, 191, 255 */
+
+/* The parameters of one track: exact, rounded to double, and rounded to the precisions of the ladder. */
 typedef struct {
     cv_params exact;
     double mu_s, mu_b, kappa_p, kappa_b, eta_p, eta_b, eta_f, eta_s, eta_N;
     int damped; /* at least one damping ratio is positive */
+    dg_constants ladder[DG_LADDER];
 } dg_track;
 
 /* Copies p; p must have passed cv_params_check. CV_FAILED when out of memory. *out is NULL on failure. */
 cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why);
 void dg_track_free(dg_track *t); /* NULL allowed */
 
+/* The exact parameters rounded to "precision" bits (within one unit in the last place). */
+void dg_constants_init(dg_constants *c, const dg_track *t, mpfr_prec_t precision);
+void dg_constants_clear(dg_constants *c);
+
 /* Delta and R in double at one (alpha, qbar).
- * Post-condition: each computed coefficient differs from the exact one by at most 48 u times its size, and
- * evaluating by Horner at a double y adds at most 30 u times the size polynomial at |y| (u = 2^-53). */
+ * Each computed coefficient differs from the exact one by at most 72 u times its size (u = 2^-53, derivation
+ * in dgreen/bounds.h). */
 typedef struct {
     double re[DG_DEGREE + 1], im[DG_DEGREE + 1]; /* Delta(i y) */
     double size[DG_DEGREE + 1];                  /* the same sums with every term replaced by its modulus */

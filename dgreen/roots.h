@@ -13,12 +13,12 @@ typedef struct {
     double re[DG_DEGREE], im[DG_DEGREE];
 } dg_roots;
 
-/* For each root: the value of Delta' at the approximation and what is known about the exact root.
- * For the far root "derivative" belongs to the reversed polynomial u^8 Delta(i/u), and radius to u. */
+/* For each root: Delta' and what is known about the exact root. Errors in units of 2^-53 (dgreen/bounds.h).
+ * For the far root they belong to the reversed polynomial u^8 Delta(i/u) and to u. */
 typedef struct {
     double d_re[DG_DEGREE], d_im[DG_DEGREE]; /* d Delta(i y)/dy at the approximation */
-    double d_error[DG_DEGREE]; /* relative: of d_re + i d_im as a value of Delta' at the exact root */
-    double radius[DG_DEGREE];  /* the disc around the approximation holds exactly one exact root */
+    double d_error[DG_DEGREE];               /* relative: of d_re + i d_im as its value at the exact root */
+    double radius[DG_DEGREE]; /* the disc around the approximation holds exactly one exact root */
 } dg_discs;
 
 /* Eigenvalues of the balanced companion matrix (LAPACK zhseqr), not polished. CV_UNDECIDED where LAPACK does
@@ -35,10 +35,9 @@ cv_status dg_roots_polish(dg_roots *roots, const dg_operator *op);
 /* The same for the cold start, which may begin far away: more sweeps. */
 cv_status dg_roots_polish_cold(dg_roots *roots, const dg_operator *op);
 
-/* Method: a polynomial f of degree at most n has a root within n |f(y)/f'(y)| of y. All n discs disjoint:
- * each holds exactly one root. Then f'/f = sum 1/(y - y_k) bounds the distance to that one root without the
- * factor n. The rounding errors of the coefficients and of the evaluation are included. CV_UNDECIDED when
- * discs meet (clusters closer than the rounding allows). */
+/* Disjoint discs, one exact root in each (method in dgreen/bounds.h); the rounding errors of the coefficients
+ * and of the evaluation are included. CV_UNDECIDED when discs meet (clusters closer than the rounding
+ * allows). */
 cv_status dg_roots_enclose(dg_discs *discs, const dg_roots *roots, const dg_operator *op);
 
 #endif

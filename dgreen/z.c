@@ -15,11 +15,19 @@ cv_status dg_follow_new(dg_follow **out, cv_message *why)
     if (*out == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
     (*out)->counters.largest_precision = DBL_MANT_DIG;
+    mpfr_init2((*out)->alpha, DBL_MANT_DIG);
+    mpc_init2((*out)->qbar, DBL_MANT_DIG);
     return CV_OK;
 }
 
 void dg_follow_free(dg_follow *f)
 {
+    if (f == NULL)
+        return;
+    for (int i = 0; i < DG_LADDER; i++)
+        dg_mp_free(f->mp[i]);
+    mpfr_clear(f->alpha);
+    mpc_clear(f->qbar);
     free(f);
 }
 
@@ -37,7 +45,7 @@ static void scale(dg_value *value, const dg_residue_sum *sum, double complex qba
     value->re = f_re * sum->re - f_im * sum->im;
     value->im = f_re * sum->im + f_im * sum->re;
     const double size = fabs(f_re) + fabs(f_im);
-    const double common = size * sum->error * (1 + 16 * UNIT);
+    const double common = size * sum->error * UNIT * (1 + 16 * UNIT);
     const double cross = 8 * UNIT;
     value->re_error = common + cross * (fabs(f_re * sum->re) + fabs(f_im * sum->im));
     value->im_error = common + cross * (fabs(f_re * sum->im) + fabs(f_im * sum->re));
@@ -95,18 +103,4 @@ cv_status dg_zeta_double(dg_value *value, dg_follow *follow, const dg_track *tra
     follow->counters.evaluations++;
     const cv_status status = find_roots(follow, &discs, &op);
     return status == CV_OK ? evaluate(value, &follow->roots, &discs, &op, qbar) : status;
-}
-
-static int good_enough(const dg_value *v, double tol_re, double tol_im)
-{
-    return v->re_error <= tol_re * fabs(v->re) && v->im_error <= tol_im * fabs(v->im);
-}
-
-cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
-                           double complex qbar, double tol_re, double tol_im)
-{
-    const cv_status status = dg_zeta_double(value, follow, track, alpha, qbar);
-    if (status == CV_OK && !good_enough(value, tol_re, tol_im))
-        return CV_UNDECIDED;
-    return status;
 }

@@ -1,0 +1,63 @@
+#include "dgreen/bounds.h"
+
+/* Distances are computed in double with a few rounding errors. */
+static const double SLACK = 1 - 1e-14;
+
+/* Root i against the others, whose discs have radius wide[k]: sum over k of 1/(distance to the nearest point
+ * of disc k); negative when discs meet. */
+static inline double crowding(const dg_separation *s, const double *wide, int i)
+{
+    const int near = s->count - s->far;
+    double sum = 0;
+    for (int k = 0; k < near; k++) {
+        if (k == i)
+            continue;
+        const double gap = s->distance[i][k] * SLACK - wide[k];
+        if (!(gap > wide[i]))
+            return -1;
+        sum += 1 / gap;
+    }
+    if (s->far) {
+        const double edge = 1 / (s->modulus[near] + wide[near]);
+        const double gap = (edge - s->modulus[i]) * SLACK;
+        if (!(gap > wide[i] && gap > s->modulus[i]))
+            return -1;
+        sum += 1 / gap;
+    }
+    return sum;
+}
+
+/* The far root against the others in the u plane, where they are at 1/y_k. */
+static double far_crowding(const dg_separation *s, const double *wide)
+{
+    const int near = s->count - 1;
+    double sum = 0;
+    for (int k = 0; k < near; k++) {
+        const double gap = (1 / (s->modulus[k] + wide[k]) - s->modulus[near]) * SLACK;
+        if (!(gap > wide[near] && gap > s->modulus[near]))
+            return -1;
+        sum += 1 / gap;
+    }
+    return sum;
+}
+
+cv_status dg_separate(double *radius, double *slope_relative, const dg_separation *s)
+{
+    double newton[DG_DEGREE], slope[DG_DEGREE], wide[DG_DEGREE];
+    for (int i = 0; i < s->count; i++) {
+        slope[i] = s->slope[i] - s->slope_error[i] * s->unit;
+        if (!(slope[i] > 0))
+            return CV_UNDECIDED;
+        newton[i] = s->value[i] / (slope[i] * SLACK);
+        wide[i] = s->count * newton[i] * s->unit;
+    }
+    for (int i = 0; i < s->count; i++) {
+        const double sum = i < s->count - s->far ? crowding(s, wide, i) : far_crowding(s, wide);
+        const double relative = newton[i] * s->unit * sum;
+        if (!(sum >= 0 && relative < 0.04))
+            return CV_UNDECIDED;
+        radius[i] = newton[i] / ((1 - relative) * SLACK);
+        slope_relative[i] = s->slope_error[i] / slope[i] + 2.5 * radius[i] * sum;
+    }
+    return CV_OK;
+}

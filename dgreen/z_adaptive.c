@@ -1,0 +1,75 @@
+/* dg_zeta_adaptive: double first, then the ladder of precisions. */
+#include <math.h>
+
+#include "dgreen/follow.h"
+
+static const double UNIT = 0x1p-53;
+
+/* error <= tolerance |part|; an infinite tolerance takes anything */
+static int part_is_good(double part, double error, double tolerance)
+{
+    return isinf(tolerance) || error <= tolerance * fabs(part);
+}
+
+static int good_enough(const dg_value *v, double tol_re, double tol_im)
+{
+    return part_is_good(v->re, v->re_error, tol_re) && part_is_good(v->im, v->im_error, tol_im);
+}
+
+static void round_value(dg_value *value, const dg_mp_value *v)
+{
+    value->re = mpfr_get_d(v->re, MPFR_RNDN);
+    value->im = mpfr_get_d(v->im, MPFR_RNDN);
+    value->re_error = mpfr_get_d(v->re_error, MPFR_RNDU) + 1.001 * UNIT * fabs(value->re);
+    value->im_error = mpfr_get_d(v->im_error, MPFR_RNDU) + 1.001 * UNIT * fabs(value->im);
+    value->right_count = v->right_count;
+}
+
+/* Roots to start from: those of the double attempt where it found any. */
+static cv_status find_start(dg_follow *f, const dg_track *track, double alpha, double complex qbar)
+{
+    if (f->warm)
+        return CV_OK;
+    dg_operator op;
+    dg_operator_set(&op, track, alpha, qbar);
+    return dg_roots_cold(&f->roots, &op);
+}
+
+static cv_status climb(dg_value *value, dg_follow *f, const dg_track *track, int rung)
+{
+    if (f->mp[rung] == NULL && dg_mp_new(&f->mp[rung], dg_ladder[rung], NULL) != CV_OK)
+        return CV_FAILED;
+    if (f->counters.largest_precision < dg_ladder[rung])
+        f->counters.largest_precision = (int)dg_ladder[rung];
+    dg_mp_value v;
+    const cv_status status =
+        dg_mp_zeta(&v, f->mp[rung], track, &track->ladder[rung], f->alpha, f->qbar, &f->roots);
+    if (status == CV_OK)
+        round_value(value, &v);
+    return status;
+}
+
+cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
+                           double complex qbar, double tol_re, double tol_im)
+{
+    *value = (dg_value){0, 0, HUGE_VAL, HUGE_VAL, 0};
+    cv_status status = dg_zeta_double(value, follow, track, alpha, qbar);
+    if (status == CV_OK && good_enough(value, tol_re, tol_im))
+        return CV_OK;
+    if (status != CV_OK && status != CV_UNDECIDED)
+        return status;
+    status = find_start(follow, track, alpha, qbar);
+    if (status != CV_OK)
+        return status;
+    follow->counters.above_double++;
+    mpfr_set_d(follow->alpha, alpha, MPFR_RNDN);
+    mpc_set_d_d(follow->qbar, creal(qbar), cimag(qbar), MPC_RNDNN);
+    for (int rung = 0; rung < DG_LADDER; rung++) {
+        status = climb(value, follow, track, rung);
+        if (status == CV_OK && good_enough(value, tol_re, tol_im))
+            return CV_OK;
+        if (status != CV_OK && status != CV_UNDECIDED)
+            return status;
+    }
+    return CV_UNDECIDED;
+}
