@@ -114,10 +114,11 @@ cv_status sa_quadrature_kernel(double complex *kernel, double *error, const sa_t
     if (usable(status))
         status = integrate(&im, &im_error, &f, imaginary_part, scaled);
     gsl_integration_workspace_free(f.workspace);
-    if (status != GSL_SUCCESS)
-        return cv_fail(why, CV_UNDECIDED, "quadrature does not reach the tolerance: %s",
-                       gsl_strerror(status));
+    if (!usable(status))
+        return cv_fail(why, CV_FAILED, "quadrature: %s", gsl_strerror(status));
+    if (!(re_error + im_error <= 4 * tolerance * (size_of(&f) + hypot(re, im))))
+        return cv_fail(why, CV_UNDECIDED, "quadrature reaches an error of %.1e only", re_error + im_error);
     *kernel = CMPLX(re, im);
-    *error = hypot(re_error, im_error);
+    *error = re_error + im_error;
     return CV_OK;
 }
