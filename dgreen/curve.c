@@ -1,0 +1,145 @@
+#include "dgreen/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dgreen/curve_refine.h"
+
+/* Nodes per decade of the distance from a branch point, and the first distance in units of its width */
+enum { PER_DECADE = 4 };
+static const double FIRST = 0.03, FIRST_SOFT = 0.3;
+/* Relative spacing of doubles with some room */
+static const double SPACING = 1e-15;
+
+cv_status dg_curve_reserve(dg_curve *c, size_t more, cv_message *why)
+{
+    if (c->node_count + more <= c->node_room)
+        return CV_OK;
+    const size_t room = 2 * (c->node_count + more);
+    dg_node *grown = realloc(c->nodes, room * sizeof *grown);
+    if (grown == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    c->nodes = grown;
+    c->node_room = room;
+    return CV_OK;
+}
+
+cv_status dg_curve_add(dg_curve *c, const dg_probe *p, double q, cv_message *why)
+{
+    cv_status status = dg_curve_reserve(c, 1, why);
+    if (status != CV_OK)
+        return status;
+    /* At a zero of Im zeta no precision certifies the sign: move off by a few spacings. */
+    for (int i = 0; i < 3; i++) {
+        status = dg_probe_at(&c->nodes[c->node_count], p, c->alpha, q);
+        if (status != CV_UNDECIDED)
+            break;
+        q *= 1 + 8 * SPACING;
+    }
+    if (status == CV_OK)
+        c->node_count++;
+    else
+        cv_fail(why, status, "sign of Im zeta not certified at alpha = %.17g, q = %.17g", c->alpha, q);
+    return status;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = ((const dg_node *)a)->q, y = ((const dg_node *)b)->q;
+    return (x > y) - (x < y);
+}
+
+void dg_curve_sort(dg_curve *c)
+{
+    size_t n = 0;
+    qsort(c->nodes, c->node_count, sizeof *c->nodes, ascending);
+    for (size_t i = 0; i < c->node_count; i++)
+        if (n == 0 || c->nodes[i].q > c->nodes[n - 1].q)
+            c->nodes[n++] = c->nodes[i];
+    c->node_count = n;
+}
+
+/* Nodes on one side of a branch point (side = +-1) at logarithmic distances up to "reach". */
+static cv_status grade(dg_curve *c, const dg_probe *p, double centre, double first, double reach, int side,
+                       cv_message *why)
+{
+    const double ratio = pow(10, 1.0 / PER_DECADE);
+    cv_status status = CV_OK;
+    for (double d = first; d < reach && status == CV_OK; d *= ratio)
+        status = dg_curve_add(c, p, centre + side * d, why);
+    return status;
+}
+
+static double first_distance(const dg_branch_point *point)
+{
+    return fmax((point->soft ? FIRST_SOFT : FIRST) * point->width, 4 * SPACING * point->q);
+}
+
+/* The nodes around every branch point and those that lead to both ends. */
+static cv_status lay_nodes(dg_curve *c, const dg_probe *p, double q_first, double q_last, cv_message *why)
+{
+    double left = 0, left_first = q_first;
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < c->point_count && status == CV_OK; i++) {
+        const dg_branch_point *point = &c->points[i];
+        if (point->q <= 2 * q_first)
+            continue;
+        const double reach = (point->q - left) / 2, first = first_distance(point);
+        status = grade(c, p, left, left_first, reach, 1, why);
+        if (status == CV_OK && reach > q_first)
+            status = dg_curve_add(c, p, left + reach, why);
+        if (status == CV_OK)
+            status = grade(c, p, point->q, first, reach, -1, why);
+        if (status == CV_OK)
+            status = dg_curve_add(c, p, point->q, why);
+        left = point->q;
+        left_first = first;
+    }
+    return status == CV_OK ? grade(c, p, left, left_first, q_last, 1, why) : status;
+}
+
+/* Far above all branch points and the pads the rail alone is left: zeta ~ -(1 + i) sqrt(q)/(4 sqrt 2)... of
+ * which the signs are used. */
+static cv_status check_ends(const dg_curve *c, cv_message *why)
+{
+    const dg_node *first = &c->nodes[0], *last = &c->nodes[c->node_count - 1];
+    if (!(fabs(first->re) < c->x_floor / 2))
+        return cv_fail(why, CV_UNDECIDED, "zeta not small at q = %g, alpha = %.17g", first->q, c->alpha);
+    if (!(last->re < 0 && last->im < 0))
+        return cv_fail(why, CV_UNDECIDED, "zeta not that of the bare rail at q = %g", last->q);
+    return CV_OK;
+}
+
+cv_status dg_curve_at(dg_curve *c, const dg_probe *p, const dg_branch_curves *b, double alpha, double x_floor,
+                      cv_message *why)
+{
+    if (c->points == NULL) {
+        c->points = malloc((dg_branch_points_max(b) + 1) * sizeof *c->points);
+        if (c->points == NULL)
+            return cv_fail(why, CV_FAILED, "out of memory");
+    }
+    c->alpha = alpha;
+    c->x_floor = x_floor;
+    c->node_count = c->crossing_count = c->dip_count = 0;
+    c->point_count = dg_branch_points_at(c->points, b, alpha);
+    const double top = c->point_count ? c->points[c->point_count - 1].q : 0;
+    const double q_first = 1e-6, q_last = 100 * (1 + alpha * alpha) + 20 * top;
+    cv_status status = lay_nodes(c, p, q_first, q_last, why);
+    if (status != CV_OK)
+        return status;
+    dg_curve_sort(c);
+    status = check_ends(c, why);
+    if (status == CV_OK)
+        status = dg_curve_refine(c, p, why);
+    return status == CV_OK ? dg_curve_list(c, p, why) : status;
+}
+
+void dg_curve_clear(dg_curve *c)
+{
+    free(c->nodes);
+    free(c->crossings);
+    free(c->dips);
+    free(c->points);
+    memset(c, 0, sizeof *c);
+}

@@ -1,0 +1,64 @@
+/* The D-decomposition curve zeta(alpha, i q), q = 0 .. infinity, at one velocity: sampled once, it serves
+ * every mass ratio. Its crossings of the real axis decide the number of unstable roots. All dimensionless. */
+#ifndef CRITVEL_DGREEN_CURVE_H
+#define CRITVEL_DGREEN_CURVE_H
+
+#include "dgreen/branch_points.h"
+#include "dgreen/curve_probe.h"
+
+/* A zero of Im zeta with x = Re zeta. */
+typedef struct {
+    double q_low, q_high; /* the sign of Im zeta changes between them, certified */
+    double q, x;          /* between q_low and q_high, x_low and x_high: linear interpolation */
+    double x_low, x_high; /* range of Re zeta in the bracket */
+    int direction;        /* +1: Im zeta goes from + to - as q grows; -1: from - to + */
+    double dq, dx;        /* d q/d alpha and d x/d alpha along Im zeta = 0 */
+    double position;      /* grows with q; comparable between neighbouring velocities where q itself is not,
+                             because branch points move: sum over them of asinh(distance/width) */
+    double scale;         /* distance in q over which zeta changes here */
+} dg_crossing;
+
+/* A place where |Im zeta| has a small minimum above zero: two crossings may be born there. */
+typedef struct {
+    double q, re, im;
+    double d_im; /* d Im zeta/d alpha */
+} dg_dip;
+
+typedef struct {
+    double alpha;
+    double x_floor; /* crossings and dips with smaller Re zeta are not listed */
+    size_t node_count, node_room;
+    dg_node
+        *nodes; /* ascending in q; between consecutive ones zeta does not go around any real x >= x_floor */
+    size_t crossing_count, crossing_room;
+    dg_crossing *crossings; /* ascending in q, all with x >= x_floor */
+    size_t dip_count, dip_room;
+    dg_dip *dips;
+    size_t point_count;
+    dg_branch_point *points; /* branch points at alpha, ascending in q */
+} dg_curve;
+
+/* Method: nodes at logarithmic distances from q = 0 and, on both sides, from every branch point, down to a
+ * small part of its width, because zeta is smooth in the logarithm of that distance; then more nodes where
+ * |Im zeta| has a minimum that may hide two zeros, and where the curve turns. Ends: q so small that |zeta| <
+ * x_floor/2 with |zeta| ~ q^2 before it, and so large that the bare rail (Re zeta < 0, Im zeta < 0) rules.
+ * Not found: two zeros of Im zeta between consecutive nodes between which |Im zeta| shows no minimum.
+ * x_floor > 0. *c must be zero or a former curve, whose memory is used again.
+ * CV_UNDECIDED: a sign could not be certified, or one of the ends could not be reached. */
+cv_status dg_curve_at(dg_curve *c, const dg_probe *p, const dg_branch_curves *b, double alpha, double x_floor,
+                      cv_message *why);
+void dg_curve_clear(dg_curve *c);
+
+/* For the curve's own files and for those who follow crossings from one velocity to the next. */
+double dg_curve_position(const dg_branch_point *points, size_t count, double q);
+/* Distance from q to the nearest branch point or to 0, at least its width; *wave: largest |p| of the branch
+ * points that are about as near. */
+double dg_curve_scale(double *wave, const dg_branch_point *points, size_t count, double q);
+/* Between a and b, half way in the logarithm of the distance to the nearest branch point. */
+double dg_curve_middle(const dg_branch_point *points, size_t count, double a, double b);
+
+/* Narrows [a, b], where Im zeta changes sign, and fills the crossing, its slopes included. */
+cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_branch_point *points, size_t count,
+                         double alpha, const dg_node *a, const dg_node *b);
+
+#endif

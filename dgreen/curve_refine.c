@@ -1,0 +1,162 @@
+#include "dgreen/curve_refine.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { ROUNDS = 60, MAX_NODES = 100000 };
+/* A dip is left alone when the parabola through it stays above this part of its value. */
+static const double DIP_CLEARANCE = 0.6;
+/* ... and its neighbours are not higher than this many times: otherwise the parabola means little. */
+static const double DIP_RATIO = 10;
+/* cos of the largest turning of the polyline that is accepted next to the real axis: 60 degrees */
+static const double COS_TURN = 0.5;
+/* Part of the interval below which the doubles end */
+static const double NARROW = 1e-15;
+
+static int positive(const dg_node *n)
+{
+    return n->im > 0;
+}
+
+/* |Im zeta| smallest at b, and perhaps zero beside it */
+static int dip_may_hide(const dg_node *a, const dg_node *b, const dg_node *c)
+{
+    const double fa = fabs(a->im), fb = fabs(b->im), fc = fabs(c->im);
+    if (positive(a) != positive(b) || positive(b) != positive(c) || !(fb <= fa && fb <= fc))
+        return 0;
+    const double h = b->q - a->q, k = c->q - b->q, left = (fb - fa) / h, right = (fc - fb) / k;
+    const double slope = (left * k + right * h) / (h + k), curvature = (right - left) / (h + k);
+    const double least = curvature > 0 ? fb - slope * slope / (4 * curvature) : fb;
+    return least < DIP_CLEARANCE * fb || fmax(fa, fc) > DIP_RATIO * fb;
+}
+
+/* The polyline turns at b, so near the real axis that it may pass a point of it on the wrong side */
+static int turns(const dg_node *a, const dg_node *b, const dg_node *c)
+{
+    const double x = b->re - a->re, y = b->im - a->im, u = c->re - b->re, v = c->im - b->im;
+    const double one = hypot(x, y), other = hypot(u, v);
+    const double nearest = fmin(fabs(a->im), fmin(fabs(b->im), fabs(c->im)));
+    return x * u + y * v < COS_TURN * one * other && fmin(one, other) > 0.5 * nearest &&
+           fmin(one, other) > 1e-3 * fabs(b->re);
+}
+
+static cv_status halve(dg_curve *c, const dg_probe *p, const dg_node *a, const dg_node *b, cv_message *why)
+{
+    if (b->q - a->q <= NARROW * b->q)
+        return CV_OK;
+    const double q = dg_curve_middle(c->points, c->point_count, a->q, b->q);
+    return q > a->q && q < b->q ? dg_curve_add(c, p, q, why) : CV_OK;
+}
+
+/* One pass over all triples; marks of the last pass are not kept, a triple that is still bad is cut again. */
+static cv_status pass(dg_curve *c, const dg_probe *p, cv_message *why)
+{
+    const size_t n = c->node_count;
+    cv_status status = dg_curve_reserve(c, 2 * n, why); /* so that nodes do not move below */
+    size_t cut = 0;                                     /* the interval before this node is cut already */
+    for (size_t i = 1; i + 1 < n && status == CV_OK; i++) {
+        const dg_node *a = &c->nodes[i - 1], *b = a + 1, *d = a + 2;
+        if (!(fmax(a->re, fmax(b->re, d->re)) > c->x_floor / 2) || !(dip_may_hide(a, b, d) || turns(a, b, d)))
+            continue;
+        if (cut != i)
+            status = halve(c, p, a, b, why);
+        if (status == CV_OK)
+            status = halve(c, p, b, d, why);
+        cut = i + 1;
+    }
+    return status;
+}
+
+cv_status dg_curve_refine(dg_curve *c, const dg_probe *p, cv_message *why)
+{
+    for (int round = 0; round < ROUNDS && c->node_count < MAX_NODES; round++) {
+        const size_t before = c->node_count;
+        const cv_status status = pass(c, p, why);
+        if (status != CV_OK)
+            return status;
+        if (c->node_count == before)
+            return CV_OK;
+        dg_curve_sort(c);
+    }
+    return CV_OK;
+}
+
+static cv_status push_crossing(dg_curve *c, const dg_crossing *x, cv_message *why)
+{
+    if (c->crossing_count == c->crossing_room) {
+        const size_t room = c->crossing_room ? 2 * c->crossing_room : 16;
+        dg_crossing *grown = realloc(c->crossings, room * sizeof *grown);
+        if (grown == NULL)
+            return cv_fail(why, CV_FAILED, "out of memory");
+        c->crossings = grown;
+        c->crossing_room = room;
+    }
+    c->crossings[c->crossing_count++] = *x;
+    return CV_OK;
+}
+
+static cv_status push_dip(dg_curve *c, const dg_probe *p, const dg_node *n, cv_message *why)
+{
+    if (c->dip_count == c->dip_room) {
+        const size_t room = c->dip_room ? 2 * c->dip_room : 16;
+        dg_dip *grown = realloc(c->dips, room * sizeof *grown);
+        if (grown == NULL)
+            return cv_fail(why, CV_FAILED, "out of memory");
+        c->dips = grown;
+        c->dip_room = room;
+    }
+    double wave;
+    const double scale = dg_curve_scale(&wave, c->points, c->point_count, n->q);
+    dg_slopes s;
+    const cv_status status = dg_probe_slopes(&s, p, c->alpha, n->q, scale, wave);
+    c->dips[c->dip_count++] = (dg_dip){n->q, n->re, n->im, s.im_alpha};
+    return status;
+}
+
+static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_message *why)
+{
+    dg_crossing x;
+    const dg_node a = c->nodes[i], b = c->nodes[i + 1];
+    cv_status status = dg_curve_cross(&x, p, c->points, c->point_count, c->alpha, &a, &b);
+    if (status != CV_OK)
+        return cv_fail(why, status, "crossing at alpha = %.17g, q = %.17g not resolved", c->alpha, x.q);
+    if (x.x < c->x_floor)
+        return CV_OK;
+    status = push_crossing(c, &x, why);
+    if (status == CV_OK && x.q_low > a.q)
+        status = dg_curve_add(c, p, x.q_low, why);
+    if (status == CV_OK && x.q_high < b.q)
+        status = dg_curve_add(c, p, x.q_high, why);
+    return status;
+}
+
+/* Whether zeta may exceed the floor near the interval after node i */
+static int relevant(const dg_curve *c, size_t i, size_t n)
+{
+    double most = fmax(c->nodes[i].re, c->nodes[i + 1].re);
+    if (i > 0)
+        most = fmax(most, c->nodes[i - 1].re);
+    if (i + 2 < n)
+        most = fmax(most, c->nodes[i + 2].re);
+    return most > c->x_floor;
+}
+
+cv_status dg_curve_list(dg_curve *c, const dg_probe *p, cv_message *why)
+{
+    const size_t n = c->node_count;
+    cv_status status = CV_OK;
+    for (size_t i = 0; i + 1 < n && status == CV_OK; i++) {
+        const dg_node *a = &c->nodes[i];
+        if (positive(a) != positive(a + 1)) {
+            if (relevant(c, i, n))
+                status = list_crossing(c, p, i, why);
+        } else if (i > 0 && a->re > c->x_floor && positive(a - 1) == positive(a) &&
+                   fabs(a->im) < fmin(fabs(a[-1].im), fabs(a[1].im)) && fabs(a->im) < 3 * a->re) {
+            const dg_node node = *a;
+            status = push_dip(c, p, &node, why);
+        }
+    }
+    if (status == CV_OK)
+        dg_curve_sort(c);
+    return status;
+}

@@ -1,0 +1,216 @@
+#include "dgreen/transitions_cell.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "dgreen/transitions_branch.h"
+
+enum { MAX_DEPTH = 70, MAX_ALIGNED = 64, NONE = -1 };
+/* Costs of the alignment: a crossing without a partner, and the weight of a difference of position */
+static const double SKIP = 3, POSITION_WEIGHT = 0.2;
+/* A dip or an unpaired crossing matters for mass ratios with 1/eta_M within this factor */
+static const double REACH = 4;
+
+typedef struct {
+    const dg_curve *left, *right;
+    int right_of[MAX_ALIGNED]; /* index of the partner on the right, or NONE */
+    int left_of[MAX_ALIGNED];
+} alignment;
+
+static double match_cost(const dg_crossing *a, const dg_crossing *b, int positions)
+{
+    if (a->direction != b->direction)
+        return INFINITY;
+    return fabs(log(a->x / b->x)) + (positions ? POSITION_WEIGHT * fabs(a->position - b->position) : 0);
+}
+
+static size_t hard_points(const dg_curve *c)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->point_count; i++)
+        n += !c->points[i].soft;
+    return n;
+}
+
+/* Edit distance by dynamic programming; ties prefer pairs. 0 when there are too many crossings. */
+static int align(alignment *g)
+{
+    const size_t n = g->left->crossing_count, m = g->right->crossing_count;
+    double cost[MAX_ALIGNED + 1][MAX_ALIGNED + 1];
+    if (n > MAX_ALIGNED || m > MAX_ALIGNED)
+        return 0;
+    const int positions = hard_points(g->left) == hard_points(g->right);
+    for (size_t i = 0; i <= n; i++)
+        for (size_t j = 0; j <= m; j++) {
+            double best = i == 0 && j == 0 ? 0 : INFINITY;
+            if (i > 0)
+                best = fmin(best, cost[i - 1][j] + SKIP);
+            if (j > 0)
+                best = fmin(best, cost[i][j - 1] + SKIP);
+            if (i > 0 && j > 0)
+                best = fmin(best, cost[i - 1][j - 1] + match_cost(&g->left->crossings[i - 1],
+                                                                  &g->right->crossings[j - 1], positions));
+            cost[i][j] = best;
+        }
+    size_t i = n, j = m;
+    while (i > 0 || j > 0) {
+        const double here = cost[i][j];
+        if (i > 0 && j > 0 &&
+            here == cost[i - 1][j - 1] +
+                        match_cost(&g->left->crossings[i - 1], &g->right->crossings[j - 1], positions)) {
+            g->right_of[--i] = (int)--j;
+            g->left_of[j] = (int)i;
+        } else if (i > 0 && here == cost[i - 1][j] + SKIP) {
+            g->right_of[--i] = NONE;
+        } else {
+            g->left_of[--j] = NONE;
+        }
+    }
+    return 1;
+}
+
+/* Whether the unpaired crossings of one curve change the balance for some 1/eta_M near x: they must cancel at
+ * x and over the margin that their own spread suggests. */
+static int unpaired_matter(const dg_curve *c, const int *partner, double x)
+{
+    int balance = 0;
+    double nearest_above = INFINITY, nearest_below = 0;
+    for (size_t i = 0; i < c->crossing_count; i++) {
+        if (partner[i] != NONE)
+            continue;
+        if (c->crossings[i].x > x) {
+            balance += c->crossings[i].direction;
+            nearest_above = fmin(nearest_above, c->crossings[i].x);
+        } else {
+            nearest_below = fmax(nearest_below, c->crossings[i].x);
+        }
+    }
+    return balance != 0 || nearest_above < 1.05 * x || nearest_below > x / 1.05;
+}
+
+/* Whether a dip of one curve reaches zero within "distance" (signed) in alpha, by its slope, at an x that
+ * matters. */
+static int dip_matters(const dg_sweep *s, const dg_curve *c, double distance)
+{
+    for (size_t i = 0; i < c->dip_count; i++) {
+        const dg_dip *d = &c->dips[i];
+        if (!((d->im + d->d_im * distance > 0) == (d->im > 0)))
+            for (size_t k = 0; k < s->mass_count; k++)
+                if (d->re < REACH * s->masses[k].x && d->re > s->masses[k].x / REACH)
+                    return 1;
+    }
+    return 0;
+}
+
+/* One attempt without cutting. CV_UNDECIDED: cut. */
+static cv_status attempt(dg_sweep *s, const dg_curve *left, const dg_curve *right)
+{
+    alignment g = {.left = left, .right = right};
+    if (!align(&g))
+        return CV_UNDECIDED;
+    for (size_t k = 0; k < s->mass_count; k++)
+        if (unpaired_matter(left, g.right_of, s->masses[k].x) ||
+            unpaired_matter(right, g.left_of, s->masses[k].x))
+            return CV_UNDECIDED;
+    const double width = right->alpha - left->alpha;
+    if (left->crossing_count == right->crossing_count &&
+        (dip_matters(s, left, width) || dip_matters(s, right, -width)))
+        return CV_UNDECIDED;
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < left->crossing_count && status == CV_OK; i++)
+        if (g.right_of[i] != NONE)
+            status = dg_branch_scan(s, left, &left->crossings[i], right, &right->crossings[g.right_of[i]]);
+    return status;
+}
+
+/* Marks the mass ratios whose count changes without an explanation; returns whether there are any. */
+static int unexplained(dg_sweep *s, const dg_curve *left, const dg_curve *right, const size_t *before,
+                       int doubt)
+{
+    int any = 0;
+    for (size_t k = 0; k < s->mass_count; k++) {
+        dg_mass *mass = &s->masses[k];
+        int change = dg_crossing_balance(right, mass->x) - dg_crossing_balance(left, mass->x);
+        for (size_t i = before[k]; i < mass->count; i++)
+            change -= mass->finds[i].change;
+        if (change == 0)
+            continue;
+        any = 1;
+        if (doubt)
+            dg_sweep_doubt(mass, "unexplained change of the number of unstable roots", left->alpha,
+                           right->alpha);
+    }
+    return any;
+}
+
+/* Logarithmic middle as seen from the nearest special velocity */
+static double middle_velocity(const dg_sweep *s, double low, double high)
+{
+    size_t n;
+    const dg_special_velocity *special = dg_special_velocities(&n, s->curves);
+    double below = 0, above = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        if (special[i].alpha <= low)
+            below = fmax(below, special[i].alpha);
+        if (special[i].alpha >= high)
+            above = fmin(above, special[i].alpha);
+    }
+    double middle = low - below <= above - high ? below + sqrt((low - below) * (high - below))
+                                                : above - sqrt((above - low) * (above - high));
+    return middle > low && middle < high ? middle : low + (high - low) / 2;
+}
+
+static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth);
+
+static cv_status cut(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth)
+{
+    dg_curve middle = {0};
+    const double alpha = middle_velocity(s, left->alpha, right->alpha);
+    cv_status status = dg_curve_at(&middle, &s->probe, s->curves, alpha, s->x_floor, s->why);
+    if (status == CV_OK)
+        status = search(s, left, &middle, depth - 1);
+    if (status == CV_OK)
+        status = search(s, &middle, right, depth - 1);
+    dg_curve_clear(&middle);
+    return status;
+}
+
+/* Which mass ratios are touched by what could not be resolved */
+static void give_up(dg_sweep *s, const dg_curve *left, const dg_curve *right)
+{
+    alignment g = {.left = left, .right = right};
+    const int aligned = align(&g);
+    for (size_t k = 0; k < s->mass_count; k++)
+        if (!aligned || unpaired_matter(left, g.right_of, s->masses[k].x) ||
+            unpaired_matter(right, g.left_of, s->masses[k].x))
+            dg_sweep_doubt(&s->masses[k], "crossings that cannot be paired", left->alpha, right->alpha);
+}
+
+static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth)
+{
+    const int last = depth == 0 || right->alpha - left->alpha <= 8 * DBL_EPSILON * right->alpha;
+    size_t *before = malloc(s->mass_count * sizeof *before);
+    if (before == NULL)
+        return cv_fail(s->why, CV_FAILED, "out of memory");
+    for (size_t k = 0; k < s->mass_count; k++)
+        before[k] = s->masses[k].count;
+    cv_status status = attempt(s, left, right);
+    if (status == CV_OK && unexplained(s, left, right, before, last) && !last)
+        status = CV_UNDECIDED;
+    if (status == CV_UNDECIDED && last) {
+        give_up(s, left, right);
+        unexplained(s, left, right, before, 1);
+        status = CV_OK;
+    } else if (status == CV_UNDECIDED) {
+        dg_sweep_forget(s, before);
+        status = cut(s, left, right, depth);
+    }
+    free(before);
+    return status;
+}
+
+cv_status dg_cell_search(dg_sweep *s, const dg_curve *left, const dg_curve *right)
+{
+    return search(s, left, right, MAX_DEPTH);
+}
