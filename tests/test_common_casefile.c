@@ -293,6 +293,10 @@ static const wrong_file wrong[] = {
     {RUN "mass = \1\n", ":4: not text (a control character or malformed UTF-8)"},
     {RUN "\n; caf\xE9\n", ":5: not text (a control character or malformed UTF-8)"},
     {RUN "; \xC0\x80\n", ":4: not text (a control character or malformed UTF-8)"},
+    {RUN "; \xE0\x9F\xBF\n", ":4: not text (a control character or malformed UTF-8)"},
+    {RUN "; \xF0\x8F\xBF\xBF\n", ":4: not text (a control character or malformed UTF-8)"},
+    {RUN "; \xF4\x90\x80\x80\n", ":4: not text (a control character or malformed UTF-8)"},
+    {RUN "; \xE2\x82\n", ":4: not text (a control character or malformed UTF-8)"},
     {RUN "; \xED\xA0\x80\n", ":4: not text (a control character or malformed UTF-8)"},
     {"[run]\rdamping = 1\r", ":1: not text (a control character or malformed UTF-8)"},
     {"\xFF\xFE[\0r\0", ":1: not text (a control character or malformed UTF-8)"},
@@ -380,6 +384,35 @@ START_TEST(huge_lines)
 }
 END_TEST
 
+/* A line of 65536 bytes is read, one more is not. */
+START_TEST(longest_line)
+{
+    static const char end[] = "\n" RUN CASE;
+    char text[65600 + sizeof end];
+    for (size_t n = 65536; n <= 65537; ++n) {
+        cv_casefile f;
+        cv_message why;
+        char path[64];
+        memset(text, ';', n);
+        strcpy(text + n, end);
+        const cv_status status = read_bytes(&f, text, strlen(text), &why, path);
+        ck_assert_int_eq(status, n == 65536 ? CV_OK : CV_BAD_INPUT);
+        if (status == CV_OK)
+            cv_casefile_clear(&f);
+    }
+}
+END_TEST
+
+/* The first and last characters of each length of UTF-8 */
+START_TEST(characters_of_every_length)
+{
+    cv_casefile f;
+    read_valid(&f, "; \xC2\x80 \xDF\xBF \xE0\xA0\x80 \xED\x9F\xBF \xEE\x80\x80 \xEF\xBF\xBF "
+                   "\xF0\x90\x80\x80 \xF4\x8F\xBF\xBF\n" RUN CASE);
+    cv_casefile_clear(&f);
+}
+END_TEST
+
 /* A mutated file is read or refused with one line; the sanitizers watch the rest. */
 START_TEST(random_mutations)
 {
@@ -439,6 +472,8 @@ int main(void)
     tcase_add_test(c, file_without_permission);
     tcase_add_test(c, nul_byte);
     tcase_add_test(c, huge_lines);
+    tcase_add_test(c, longest_line);
+    tcase_add_test(c, characters_of_every_length);
     tcase_add_test(c, random_mutations);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
