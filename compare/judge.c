@@ -140,14 +140,6 @@ static void judge_single(cmp_verdict *v, const cmp_list *const lists[], const cm
                 lists[m]->items[i].below, lists[m]->items[i].above);
 }
 
-static void judge_limit(cmp_verdict *v, const cmp_list *const lists[], const cmp_pairing *pairing)
-{
-    const size_t limit[CMP_METHODS] = {cmp_list_limit(lists[0]), cmp_list_limit(lists[1])};
-    const int has[CMP_METHODS] = {limit[0] < lists[0]->count, limit[1] < lists[1]->count};
-    if (has[0] != has[1] || (has[0] && pairing->partner[0][limit[0]] != limit[1]))
-        cmp_verdict_worsen(v, CMP_DISAGREE, "the stability limits are not the same transition");
-}
-
 void cmp_judge(cmp_verdict *v, const cmp_list *const lists[CMP_METHODS], const cmp_pairing *pairing,
                const char *const names[CMP_METHODS], int digits)
 {
@@ -158,8 +150,6 @@ void cmp_judge(cmp_verdict *v, const cmp_list *const lists[CMP_METHODS], const c
     for (size_t i = 0; i < lists[0]->count; i++)
         if (pairing->partner[0][i] != SIZE_MAX)
             judge_pair(v, &lists[0]->items[i], &lists[1]->items[pairing->partner[0][i]], names, digits);
-    if (lists[0]->status == CV_OK && lists[1]->status == CV_OK)
-        judge_limit(v, lists, pairing);
     if (isinf(v->digits))
         v->digits = digits;
 }

@@ -36,8 +36,8 @@ void cmp_pairing_clear(cmp_pairing *p);
 /* Judges the lists of methods "names" with their pairing for "digits" digits.
  * Agree: both complete and decided, ascending, the numbers of roots following from one to the next; each
  * transition has a partner; partners differ by less than 10^-digits relative in alpha and in q and by no more
- * than the sum of the stated bounds; the same numbers of roots below and above; the same stability limit.
- * Undecided: a list or a transition says so, or its bounds are wider than the digits asked for.
+ * than the sum of the stated bounds; the same numbers of roots below and above. The stability limit is then
+ * the same. Undecided: a list or a transition says so, or its bounds are wider than the digits asked for.
  * Disagree: anything else, with what and where.
  * v->digits becomes the smallest -log10 of the relative difference of any pair, but never more than the
  * larger of the two stated bounds allows; without transitions, the digits asked for. */

@@ -29,6 +29,7 @@ typedef struct {
     double zeta_offset;   /* added to Re zeta */
     double zeta_bound;    /* stated bound of the evaluation */
     int cannot_count;     /* count says CV_UNDECIDED */
+    int count_all;        /* the count sees the transitions at every mass ratio */
     int start;            /* unstable roots at alpha_min */
     cv_status find, open; /* returned by find, open */
     int undecided_list;
@@ -96,7 +97,7 @@ static cv_status fake_count(void *handle, int *roots, mpfr_srcptr alpha, size_t 
         return cv_fail(why, CV_UNDECIDED, "the fake cannot count");
     for (size_t i = 0; i < mass_count; i++) {
         roots[i] = f->start;
-        for (int k = 0; k < FAKE_TRANSITIONS && fake_is_one(&mass_ratios[i]); k++)
+        for (int k = 0; k < FAKE_TRANSITIONS && (f->count_all || fake_is_one(&mass_ratios[i])); k++)
             if (f->drop_from_count != k + 1 && mpfr_cmp_d(alpha, FAKE_TRUTH[k].alpha) > 0)
                 roots[i] += FAKE_TRUTH[k].step;
     }

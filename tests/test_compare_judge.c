@@ -185,6 +185,25 @@ START_TEST(close_transitions_pair_by_frequency_and_direction)
 }
 END_TEST
 
+START_TEST(values_off_within_their_bounds_pair_by_frequency)
+{
+    /* by alpha alone the first of one list is nearest to the second of the other */
+    const item a[] = {{"0.3", "0.21", 1e-22, 0, 2}, {"0.30000000000000000000001", "0.25", 1e-22, 2, 4}};
+    const item b[] = {{"0.300000000000000000000008", "0.21", 1e-22, 0, 2},
+                      {"0.300000000000000000000017", "0.25", 1e-22, 2, 4}};
+    expect(judge_items(a, 2, b, 2), CMP_AGREE, "");
+}
+END_TEST
+
+START_TEST(one_transition_pairs_with_one_only)
+{
+    const item two[] = {{"0.3", "0.21", 1e-22, 0, 2}, {"0.3001", "0.21", 1e-22, 2, 4}};
+    const item one[] = {{"0.3", "0.21", 1e-22, 0, 2}};
+    expect(judge_items(two, 2, one, 1), CMP_DISAGREE, "only semianalytic has alpha = 0.3001");
+    expect(judge_items(one, 1, two, 2), CMP_DISAGREE, "only dgreen has alpha = 0.3001");
+}
+END_TEST
+
 START_TEST(what_a_method_calls_undecided_stays_undecided)
 {
     cmp_list a, b;
@@ -290,6 +309,8 @@ int main(void)
     tcase_add_test(t, numbers_of_roots_must_follow_from_one_to_the_next);
     tcase_add_test(t, lists_out_of_order_are_a_disagreement);
     tcase_add_test(t, close_transitions_pair_by_frequency_and_direction);
+    tcase_add_test(t, values_off_within_their_bounds_pair_by_frequency);
+    tcase_add_test(t, one_transition_pairs_with_one_only);
     tcase_add_test(t, what_a_method_calls_undecided_stays_undecided);
     tcase_add_test(t, nan_and_infinity_never_agree);
     tcase_add_test(t, a_bound_of_zero_claims_no_more_than_the_value_holds);

@@ -183,6 +183,17 @@ START_TEST(other_numbers_at_the_start_disagree)
 }
 END_TEST
 
+START_TEST(transitions_both_searches_missed_altogether_are_caught_by_the_counts)
+{
+    fake[0].count_all = fake[1].count_all = 1;
+    (void)outcome();
+    const cmp_verdict *v = &run.cases[0].levels[0].results[1].verdict;
+    ck_assert_int_eq(v->kind, CMP_DISAGREE);
+    ck_assert_ptr_nonnull(
+        strstr(v->reason.text, "has no transition, but 0 unstable roots at the lowest velocity and 2"));
+}
+END_TEST
+
 START_TEST(failures_are_handed_on)
 {
     cv_message why = {""};
@@ -235,6 +246,7 @@ int main(void)
     tcase_add_test(t, an_undecided_list_is_undecided);
     tcase_add_test(t, unstable_from_the_start_is_remarked);
     tcase_add_test(t, other_numbers_at_the_start_disagree);
+    tcase_add_test(t, transitions_both_searches_missed_altogether_are_caught_by_the_counts);
     tcase_add_test(t, failures_are_handed_on);
     tcase_add_test(t, one_case_and_another_damping_can_be_chosen);
     suite_add_tcase(s, t);

@@ -1,9 +1,12 @@
 /* Thread pool, files written whole, tables. */
 #include <check.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -47,6 +50,23 @@ START_TEST(the_failure_reported_does_not_depend_on_the_threads)
         ck_assert_int_eq(cmp_pool_run(threads, JOBS, job, &w, &NOBODY, &why), CV_FAILED);
         ck_assert_str_eq(why.text, "job 37");
     }
+}
+END_TEST
+
+static cv_status late_job(void *context, size_t index, cv_message *why)
+{
+    const struct timespec a_while = {0, 200000000};
+    (void)context;
+    if (index == 0)
+        nanosleep(&a_while, NULL);
+    return cv_fail(why, CV_FAILED, "job %zu", index);
+}
+
+START_TEST(the_lowest_failure_is_reported_even_when_it_comes_last)
+{
+    cv_message why = {""};
+    ck_assert_int_eq(cmp_pool_run(3, 3, late_job, NULL, &NOBODY, &why), CV_FAILED);
+    ck_assert_str_eq(why.text, "job 0");
 }
 END_TEST
 
@@ -149,6 +169,33 @@ START_TEST(what_cannot_be_written_is_said_before_and_after)
 }
 END_TEST
 
+/* In a process of its own: the limit cannot be raised again. */
+static int write_beyond_limit(void)
+{
+    const struct rlimit small = {2, 2};
+    cv_message why = {""};
+    signal(SIGXFSZ, SIG_IGN);
+    if (setrlimit(RLIMIT_FSIZE, &small) != 0)
+        return -1;
+    return (int)cmp_output_write(path, "abcdef", 6, &why);
+}
+
+START_TEST(a_disk_that_fills_up_leaves_the_old_file)
+{
+    int status;
+    cv_message why = {""};
+    ck_assert_int_eq(cmp_output_write(path, "ab", 2, &why), CV_OK);
+    fflush(NULL);
+    pid_t child = fork();
+    if (child == 0)
+        _exit(write_beyond_limit());
+    ck_assert_int_eq(waitpid(child, &status, 0), child);
+    ck_assert(WIFEXITED(status));
+    ck_assert_int_eq(WEXITSTATUS(status), CV_FAILED);
+    expect_content(path, "ab"); /* and remove_folder finds no temporary file */
+}
+END_TEST
+
 START_TEST(devices_are_written_directly)
 {
     struct stat info;
@@ -189,6 +236,7 @@ int main(void)
     TCase *t = tcase_create("pool and tables"), *f = tcase_create("files");
     tcase_add_test(t, every_job_is_done_once);
     tcase_add_test(t, the_failure_reported_does_not_depend_on_the_threads);
+    tcase_add_test(t, the_lowest_failure_is_reported_even_when_it_comes_last);
     tcase_add_test(t, no_job_is_no_work);
     tcase_add_test(t, progress_is_told);
     tcase_add_test(t, tables_line_up);
@@ -196,6 +244,7 @@ int main(void)
     tcase_add_test(f, a_file_is_written_and_replaced);
     tcase_add_test(f, a_link_keeps_pointing);
     tcase_add_test(f, what_cannot_be_written_is_said_before_and_after);
+    tcase_add_test(f, a_disk_that_fills_up_leaves_the_old_file);
     tcase_add_test(f, devices_are_written_directly);
     suite_add_tcase(s, t);
     suite_add_tcase(s, f);
