@@ -49,6 +49,9 @@ cv_status dg_curve_at(dg_curve *c, const dg_probe *p, const dg_branch_curves *b,
                       cv_message *why);
 void dg_curve_clear(dg_curve *c);
 
+/* Number of branch points at its velocity, without the soft ones */
+size_t dg_curve_hard_points(const dg_curve *c);
+
 /* For the curve's own files and for those who follow crossings from one velocity to the next. */
 double dg_curve_position(const dg_branch_point *points, size_t count, double q);
 /* Distance from q to the nearest branch point or to 0, at least its width; *wave: largest |p| of the branch

@@ -2,6 +2,14 @@
 
 #include "dgreen/curve.h"
 
+size_t dg_curve_hard_points(const dg_curve *c)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->point_count; i++)
+        n += !c->points[i].soft;
+    return n;
+}
+
 double dg_curve_position(const dg_branch_point *points, size_t count, double q)
 {
     double position = log(q);
@@ -60,7 +68,7 @@ cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_branch_poin
                          double alpha, const dg_node *a, const dg_node *b)
 {
     enum { STEPS = 100 };
-    static const double X_TOLERANCE = 1e-5, Q_TOLERANCE = 1e-3;
+    static const double X_TOLERANCE = 1e-6, Q_TOLERANCE = 1e-4;
     dg_node low = *a, high = *b;
     double wave;
     for (int i = 0; i < STEPS; i++) {

@@ -28,14 +28,6 @@ typedef struct {
     size_t mass;
 } branch;
 
-static size_t hard_points(const dg_curve *c)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < c->point_count; i++)
-        n += !c->points[i].soft;
-    return n;
-}
-
 /* q of a position between those of low and high; positions grow with q */
 static double q_of_position(const branch *b, size_t points, double position, double low, double high)
 {
@@ -113,16 +105,23 @@ static cv_status sample_until(branch *b, const sample *r)
     return CV_OK;
 }
 
-/* x(alpha) - 1/eta_M for the hunt; aside is q */
+/* The crossing at any alpha between the first and the last sample */
+static cv_status crossing_at(sample *m, const branch *b)
+{
+    size_t i = 1;
+    while (i + 1 < b->count && b->samples[i].alpha < m->alpha)
+        i++;
+    return follow(m, b, &b->samples[i - 1], &b->samples[i]);
+}
+
+/* x(alpha) - 1/eta_M for the hunt */
 static cv_status excess(dg_sample *s, void *context)
 {
     const branch *b = context;
-    size_t i = 1;
-    while (i + 1 < b->count && b->samples[i].alpha < s->at)
-        i++;
     sample m = {.alpha = s->at};
-    const cv_status status = follow(&m, b, &b->samples[i - 1], &b->samples[i]);
-    *s = (dg_sample){s->at, m.at.x - b->x, m.at.dx, m.at.q};
+    const cv_status status = crossing_at(&m, b);
+    s->value = m.at.x - b->x;
+    s->slope = m.at.dx;
     return status;
 }
 
@@ -131,12 +130,14 @@ static cv_status found(const dg_sample *low, const dg_sample *high, void *contex
     branch *b = context;
     const dg_hunter h = {excess, NULL, b};
     dg_sample zero;
-    const cv_status status = dg_hunt_refine(&zero, &h, low, high);
+    cv_status status = dg_hunt_refine(&zero, &h, low, high);
+    sample m = {.alpha = zero.at};
+    if (status == CV_OK)
+        status = crossing_at(&m, b);
     if (status != CV_OK)
         return status;
     const int rises = high->value >= 0; /* the crossing moves beyond 1/eta_M */
-    const dg_find find = {zero.at,    zero.aside, 0,
-                          zero.slope, 0,          (rises ? 2 : -2) * b->samples[0].at.direction};
+    const dg_find find = {m.alpha, m.at.q, m.at.dq, m.at.dx, m.at.scale, (rises ? 2 : -2) * m.at.direction};
     return dg_sweep_add(b->sweep, b->mass, &find);
 }
 
@@ -146,8 +147,8 @@ static cv_status hunt_mass(branch *b)
     cv_status status = CV_OK;
     for (size_t i = 0; i + 1 < b->count && status == CV_OK; i++) {
         const sample *l = &b->samples[i], *r = l + 1;
-        const dg_sample low = {l->alpha, l->at.x - b->x, l->at.dx, l->at.q};
-        const dg_sample high = {r->alpha, r->at.x - b->x, r->at.dx, r->at.q};
+        const dg_sample low = {l->alpha, l->at.x - b->x, l->at.dx, 0};
+        const dg_sample high = {r->alpha, r->at.x - b->x, r->at.dx, 0};
         status = dg_hunt_zeros(&h, &low, &high);
     }
     return status;
@@ -169,7 +170,7 @@ cv_status dg_branch_scan(dg_sweep *s, const dg_curve *left, const dg_crossing *a
     br->sweep = s;
     br->count = 1;
     br->samples[0] = (sample){left->alpha, *a};
-    br->points_alike = hard_points(left) == hard_points(right);
+    br->points_alike = dg_curve_hard_points(left) == dg_curve_hard_points(right);
     const sample last = {right->alpha, *b};
     cv_status status = sample_until(br, &last);
     for (br->mass = 0; br->mass < s->mass_count && status == CV_OK; br->mass++) {

@@ -25,14 +25,6 @@ static double match_cost(const dg_crossing *a, const dg_crossing *b, int positio
     return fabs(log(a->x / b->x)) + (positions ? POSITION_WEIGHT * fabs(a->position - b->position) : 0);
 }
 
-static size_t hard_points(const dg_curve *c)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < c->point_count; i++)
-        n += !c->points[i].soft;
-    return n;
-}
-
 /* Edit distance by dynamic programming; ties prefer pairs. 0 when there are too many crossings. */
 static int align(alignment *g)
 {
@@ -40,7 +32,7 @@ static int align(alignment *g)
     double cost[MAX_ALIGNED + 1][MAX_ALIGNED + 1];
     if (n > MAX_ALIGNED || m > MAX_ALIGNED)
         return 0;
-    const int positions = hard_points(g->left) == hard_points(g->right);
+    const int positions = dg_curve_hard_points(g->left) == dg_curve_hard_points(g->right);
     for (size_t i = 0; i <= n; i++)
         for (size_t j = 0; j <= m; j++) {
             double best = i == 0 && j == 0 ? 0 : INFINITY;

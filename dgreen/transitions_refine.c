@@ -1,0 +1,186 @@
+#include "dgreen/transitions_refine.h"
+
+#include <math.h>
+
+#include "dgreen/transitions_bracket.h"
+#include "dgreen/z_mp.h"
+
+#define RND MPFR_RNDN
+
+enum { MORE_BITS = 64, MAX_EXTRA_BITS = 4096, GUARD_DIGITS = 8, INNER_ROUNDS = 8 };
+/* First and largest half-width of the brackets, in units of the distance over which zeta changes */
+static const double FIRST_WIDTH = 1e-9, LAST_WIDTH = 0.2;
+
+typedef struct {
+    const dg_track *track;
+    const dg_find *find;
+    const cv_number *mass_ratio;
+    dg_effort *effort;
+    mpfr_prec_t bits, most_bits; /* of evaluations; grows where signs stay open */
+    mpc_t zeta;
+    mpfr_t re_error, im_error, target; /* target = 1/eta_M */
+    mpfr_srcptr alpha;                 /* of the inner search */
+    mpfr_t alpha_first, q_first, q_centre;
+    dg_bracket inner; /* in q: value = Im zeta, aside = Re zeta - 1/eta_M, and its bounds */
+    dg_bracket outer; /* in alpha: value = Re zeta - 1/eta_M at the inner root, aside = q and its bounds */
+} refiner;
+
+static void set_target(refiner *r)
+{
+    mpfr_set_prec(r->target, r->bits);
+    cv_number_get_mpfr(r->target, r->mass_ratio);
+    mpfr_ui_div(r->target, 1, r->target, RND);
+}
+
+/* zeta with a certified sign of its imaginary part */
+static cv_status evaluate(refiner *r, mpfr_srcptr q)
+{
+    for (; r->bits <= r->most_bits; r->bits += MORE_BITS, set_target(r)) {
+        const cv_status status =
+            dg_zeta_mp(r->zeta, r->re_error, r->im_error, r->track, r->alpha, q, r->bits);
+        r->effort->evaluations++;
+        r->effort->above_double++;
+        if (r->bits > r->effort->largest_precision)
+            r->effort->largest_precision = r->bits;
+        if (status == CV_OK && mpfr_cmpabs(r->im_error, mpc_imagref(r->zeta)) < 0)
+            return CV_OK;
+        if (status != CV_OK && status != CV_UNDECIDED)
+            return status;
+    }
+    return CV_UNDECIDED;
+}
+
+/* Inner function: Im zeta at the frequency e->at. */
+static cv_status imaginary_part(dg_end *e, void *context)
+{
+    refiner *r = context;
+    const cv_status status = evaluate(r, e->at);
+    if (status != CV_OK)
+        return status;
+    mpfr_set(e->value, mpc_imagref(r->zeta), RND);
+    e->sign = mpfr_sgn(e->value) > 0 ? 1 : -1;
+    mpfr_sub(e->aside, mpc_realref(r->zeta), r->target, RND);
+    mpfr_mul_2si(e->aside_high, r->target, 2 - (long)r->bits,
+                 MPFR_RNDU); /* rounding of target and difference */
+    mpfr_add(r->re_error, r->re_error, e->aside_high, MPFR_RNDU);
+    mpfr_sub(e->aside_low, e->aside, r->re_error, MPFR_RNDD);
+    mpfr_add(e->aside_high, e->aside, r->re_error, MPFR_RNDU);
+    return CV_OK;
+}
+
+/* Sign of Re zeta - 1/eta_M over the inner bracket: 0 when its ends do not certify one. */
+static int excess_sign(const refiner *r)
+{
+    const dg_end *a = &r->inner.low, *b = &r->inner.high;
+    if (mpfr_sgn(a->aside_low) > 0 && mpfr_sgn(b->aside_low) > 0)
+        return 1;
+    return mpfr_sgn(a->aside_high) < 0 && mpfr_sgn(b->aside_high) < 0 ? -1 : 0;
+}
+
+/* Outer function: Re zeta - 1/eta_M at the velocity e->at and the frequency with Im zeta = 0. */
+static cv_status excess(dg_end *e, void *context)
+{
+    refiner *r = context;
+    const dg_find *f = r->find;
+    r->alpha = e->at;
+    mpfr_sub(r->q_centre, e->at, r->alpha_first, RND);
+    mpfr_mul_d(r->q_centre, r->q_centre, f->dq, RND);
+    mpfr_add(r->q_centre, r->q_centre, r->q_first, RND);
+    cv_status status = dg_bracket_open(&r->inner, r->q_centre, FIRST_WIDTH * f->scale, LAST_WIDTH * f->scale);
+    e->sign = 0;
+    for (int i = 0; i < INNER_ROUNDS && status == CV_OK && e->sign == 0; i++) {
+        status = dg_bracket_close(&r->inner);
+        e->sign = excess_sign(r);
+        if (e->sign == 0)
+            mpfr_div_ui(r->inner.tolerance, r->inner.tolerance, 10000, RND);
+    }
+    if (status == CV_OK && e->sign == 0)
+        return CV_UNDECIDED;
+    mpfr_add(e->value, r->inner.low.aside, r->inner.high.aside, RND);
+    mpfr_div_2ui(e->value, e->value, 1, RND);
+    mpfr_set(e->aside_low, r->inner.low.at, RND);
+    mpfr_set(e->aside_high, r->inner.high.at, RND);
+    return status;
+}
+
+static void refiner_init(refiner *r, const dg_track *track, dg_effort *effort, const dg_find *find,
+                         const cv_number *mass_ratio, int digits)
+{
+    const double needed = (digits + 2 * GUARD_DIGITS) * 3.33;
+    r->track = track;
+    r->find = find;
+    r->mass_ratio = mass_ratio;
+    r->effort = effort;
+    r->bits = 64 * ((mpfr_prec_t)needed / 64 + 1) - 1;
+    r->most_bits = r->bits + MAX_EXTRA_BITS;
+    mpc_init2(r->zeta, r->bits);
+    mpfr_inits2(r->bits, r->re_error, r->im_error, r->target, r->alpha_first, r->q_first, r->q_centre,
+                (mpfr_ptr)NULL);
+    set_target(r);
+    mpfr_set_d(r->alpha_first, find->alpha, RND);
+    mpfr_set_d(r->q_first, find->q, RND);
+    dg_bracket_init(&r->inner, r->bits, imaginary_part, r);
+    dg_bracket_init(&r->outer, r->bits, excess, r);
+    r->inner.scale = find->scale;
+    r->outer.scale = find->scale / fmax(fabs(find->dq), 1e-3);
+    mpfr_set_ui(r->outer.tolerance, 10, RND);
+    mpfr_pow_si(r->outer.tolerance, r->outer.tolerance, -digits, RND);
+    mpfr_div_ui(r->outer.tolerance, r->outer.tolerance, 4, RND);
+    mpfr_mul_d(r->inner.tolerance, r->outer.tolerance, 1e-8 * find->q, RND);
+    const double least = fmin(find->alpha, find->q / fmax(fabs(find->dq), 1));
+    mpfr_mul_d(r->outer.tolerance, r->outer.tolerance, least, RND);
+}
+
+static void refiner_clear(refiner *r)
+{
+    dg_bracket_clear(&r->inner);
+    dg_bracket_clear(&r->outer);
+    mpc_clear(r->zeta);
+    mpfr_clears(r->re_error, r->im_error, r->target, r->alpha_first, r->q_first, r->q_centre, (mpfr_ptr)NULL);
+}
+
+/* Middle of [low, high] and its half-width, rounded up to cover the rounding of the middle. */
+static double middle(mpfr_t out, mpfr_srcptr low, mpfr_srcptr high)
+{
+    mpfr_t half;
+    mpfr_init2(half, mpfr_get_prec(low));
+    mpfr_set_prec(out, mpfr_get_prec(low));
+    mpfr_add(out, low, high, RND);
+    mpfr_div_2ui(out, out, 1, RND);
+    mpfr_sub(half, high, low, MPFR_RNDU);
+    const double error = 0.51 * mpfr_get_d(half, MPFR_RNDU);
+    mpfr_clear(half);
+    return error;
+}
+
+/* The bracket of alpha, and the hull of the frequencies at its two ends. */
+static void report(dg_transition *out, refiner *r)
+{
+    dg_bracket *o = &r->outer;
+    out->alpha_error = middle(out->alpha, o->low.at, o->high.at);
+    mpfr_min(o->trial.aside_low, o->low.aside_low, o->high.aside_low, RND);
+    mpfr_max(o->trial.aside_high, o->low.aside_high, o->high.aside_high, RND);
+    out->frequency_error = middle(out->frequency, o->trial.aside_low, o->trial.aside_high);
+}
+
+cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track, const dg_find *find,
+                    const cv_number *mass_ratio, int digits)
+{
+    refiner r;
+    refiner_init(&r, track, effort, find, mass_ratio, digits);
+    const double unit = r.outer.scale;
+    cv_status status = dg_bracket_open(&r.outer, r.alpha_first, FIRST_WIDTH * unit, LAST_WIDTH * unit);
+    if (status == CV_OK)
+        status = dg_bracket_close(&r.outer);
+    if (status == CV_OK) {
+        report(out, &r);
+    } else {
+        mpfr_set(out->alpha, r.alpha_first, RND);
+        mpfr_set(out->frequency, r.q_first, RND);
+        out->alpha_error = LAST_WIDTH * unit;
+        out->frequency_error = LAST_WIDTH * find->scale;
+    }
+    out->decided = status;
+    refiner_clear(&r);
+    return status;
+}
