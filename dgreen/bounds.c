@@ -5,7 +5,7 @@ static const double SLACK = 1 - 1e-14;
 
 /* Root i against the others, whose discs have radius wide[k]: sum over k of 1/(distance to the nearest point
  * of disc k); negative when discs meet. */
-static inline double crowding(const dg_separation *s, const double *wide, int i)
+static inline double near_crowding(const dg_separation *s, const double *wide, int i)
 {
     const int near = s->count - s->far;
     double sum = 0;
@@ -41,21 +41,23 @@ static double far_crowding(const dg_separation *s, const double *wide)
     return sum;
 }
 
-cv_status dg_separate(double *radius, double *slope_relative, const dg_separation *s)
+cv_status dg_separate(double *radius, double *slope_relative, double *crowding, const dg_separation *s)
 {
     double newton[DG_DEGREE], slope[DG_DEGREE], wide[DG_DEGREE];
     for (int i = 0; i < s->count; i++) {
-        slope[i] = s->slope[i] - s->slope_error[i] * s->unit;
-        if (!(slope[i] > 0))
+        const double rounding = s->slope_error[i] * s->unit;
+        if (!(10 * rounding < s->slope[i]))
             return CV_UNDECIDED;
+        slope[i] = s->slope[i] - rounding;
         newton[i] = s->value[i] / (slope[i] * SLACK);
         wide[i] = s->count * newton[i] * s->unit;
     }
     for (int i = 0; i < s->count; i++) {
-        const double sum = i < s->count - s->far ? crowding(s, wide, i) : far_crowding(s, wide);
+        const double sum = i < s->count - s->far ? near_crowding(s, wide, i) : far_crowding(s, wide);
         const double relative = newton[i] * s->unit * sum;
         if (!(sum >= 0 && relative < 0.04))
             return CV_UNDECIDED;
+        crowding[i] = sum;
         radius[i] = newton[i] / ((1 - relative) * SLACK);
         slope_relative[i] = s->slope_error[i] / slope[i] + 2.5 * radius[i] * sum;
     }

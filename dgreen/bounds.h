@@ -23,10 +23,11 @@ typedef struct {
     double distance[DG_DEGREE][DG_DEGREE]; /* between near approximations */
 } dg_separation;
 
-/* radius[i] (units): the disc around approximation i holds exactly one root of f; in the u plane for the far
- * root. slope_relative[i] (units): relative error of the computed f' as value of f' at the exact root.
- * CV_UNDECIDED when discs meet or f' may vanish. */
-cv_status dg_separate(double *radius, double *slope_relative, const dg_separation *s);
+/* crowding[i]: the sum above for root i. radius[i] (units): the disc around approximation i holds exactly one
+ * root of f; in the u plane for the far root. slope_relative[i] (units): relative error of the computed f' as
+ * value of f' at the exact root. CV_UNDECIDED when discs meet, or when f' is lost in rounding (relative error
+ * above 0.1). */
+cv_status dg_separate(double *radius, double *slope_relative, double *crowding, const dg_separation *s);
 
 /* Rounding, in units times the size polynomial at |y|. Parameters, alpha and qbar are within 2 units of the
  * exact ones; then the entries of (17) are within 19 units of their sizes, a product of two of them within

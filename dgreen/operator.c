@@ -62,9 +62,9 @@ void dg_track_free(dg_track *t)
     free(t);
 }
 
-/* A polynomial in y with the sizes of its coefficients; the degree is known where it is used. */
+/* A polynomial in y with the sizes of the parts of its coefficients; the degree is known where it is used. */
 typedef struct {
-    double re[DG_DEGREE + 1], im[DG_DEGREE + 1], size[DG_DEGREE + 1];
+    double re[DG_DEGREE + 1], im[DG_DEGREE + 1], size_re[DG_DEGREE + 1], size_im[DG_DEGREE + 1];
 } polynomial;
 
 /* sum += factor * a * b */
@@ -72,11 +72,13 @@ static inline void add_product(polynomial *sum, double factor, const polynomial 
                                const polynomial *b, int degree_b)
 {
     for (int i = 0; i <= degree_a; i++) {
-        const double re = factor * a->re[i], im = factor * a->im[i], size = factor * a->size[i];
+        const double re = factor * a->re[i], im = factor * a->im[i];
+        const double size_re = factor * a->size_re[i], size_im = factor * a->size_im[i];
         for (int j = 0; j <= degree_b; j++) {
             sum->re[i + j] += re * b->re[j] - im * b->im[j];
             sum->im[i + j] += re * b->im[j] + im * b->re[j];
-            sum->size[i + j] += size * b->size[j];
+            sum->size_re[i + j] += size_re * b->size_re[j] + size_im * b->size_im[j];
+            sum->size_im[i + j] += size_re * b->size_im[j] + size_im * b->size_re[j];
         }
     }
 }
@@ -86,71 +88,75 @@ static inline void add(polynomial *sum, const polynomial *a, int degree)
     for (int i = 0; i <= degree; i++) {
         sum->re[i] += a->re[i];
         sum->im[i] += a->im[i];
-        sum->size[i] += a->size[i];
+        sum->size_re[i] += a->size_re[i];
+        sum->size_im[i] += a->size_im[i];
     }
+}
+
+/* A term of coefficient k, with its size */
+static inline void add_term(polynomial *sum, int k, double re, double im)
+{
+    sum->re[k] += re;
+    sum->im[k] += im;
+    sum->size_re[k] += fabs(re);
+    sum->size_im[k] += fabs(im);
 }
 
 /* s = i (w - alpha y), w = -i qbar */
 typedef struct {
-    double alpha, w_re, w_im, w_abs;
-    double w2_re, w2_im, w2_abs;
+    double alpha, w_re, w_im;
 } shift;
 
 /* sum += factor * s^2 */
 static inline void add_square(polynomial *sum, double factor, const shift *s)
 {
-    sum->re[0] -= factor * s->w2_re;
-    sum->im[0] -= factor * s->w2_im;
-    sum->size[0] += factor * s->w2_abs;
-    sum->re[1] += 2 * factor * s->alpha * s->w_re;
-    sum->im[1] += 2 * factor * s->alpha * s->w_im;
-    sum->size[1] += 2 * factor * s->alpha * s->w_abs;
-    sum->re[2] -= factor * s->alpha * s->alpha;
-    sum->size[2] += factor * s->alpha * s->alpha;
+    add_term(sum, 0, -factor * s->w_re * s->w_re, -2 * factor * s->w_re * s->w_im);
+    add_term(sum, 0, factor * s->w_im * s->w_im, 0);
+    add_term(sum, 1, 2 * factor * s->alpha * s->w_re, 2 * factor * s->alpha * s->w_im);
+    add_term(sum, 2, -factor * s->alpha * s->alpha, 0);
 }
 
 /* sum += 2 eta s + kappa */
 static inline void add_spring(polynomial *sum, double eta, double kappa, const shift *s)
 {
-    sum->re[0] += kappa - 2 * eta * s->w_im;
-    sum->im[0] += 2 * eta * s->w_re;
-    sum->size[0] += kappa + 2 * eta * s->w_abs;
-    sum->im[1] -= 2 * eta * s->alpha;
-    sum->size[1] += 2 * eta * s->alpha;
-}
-
-static void set_shift(shift *s, double alpha, double complex qbar)
-{
-    s->alpha = alpha;
-    s->w_re = cimag(qbar);
-    s->w_im = -creal(qbar);
-    s->w2_re = s->w_re * s->w_re - s->w_im * s->w_im;
-    s->w2_im = 2 * s->w_re * s->w_im;
-    s->w2_abs = s->w_re * s->w_re + s->w_im * s->w_im;
-    s->w_abs = sqrt(s->w2_abs);
+    add_term(sum, 0, kappa, 0);
+    add_term(sum, 0, -2 * eta * s->w_im, 2 * eta * s->w_re);
+    add_term(sum, 1, 0, -2 * eta * s->alpha);
 }
 
 static void set_beam(polynomial *a, const dg_track *t, const shift *s)
 {
     add_square(a, 4, s);
-    a->re[2] -= 4 * t->eta_N;
-    a->size[2] += 4 * fabs(t->eta_N);
-    a->re[4] = 1;
-    a->size[4] = 1;
+    add_term(a, 2, -4 * t->eta_N, 0);
+    add_term(a, 4, 1, 0);
 }
 
 static void set_foundation(polynomial *f, const dg_track *t, const shift *s)
 {
     add_spring(f, t->eta_f, 1, s);
     add_square(f, t->mu_b, s);
-    f->re[2] += t->eta_s;
-    f->size[2] += t->eta_s;
+    add_term(f, 2, t->eta_s, 0);
+}
+
+static void store(dg_operator *op, const polynomial *delta, const polynomial *r)
+{
+    memcpy(op->re, delta->re, sizeof op->re);
+    memcpy(op->im, delta->im, sizeof op->im);
+    memcpy(op->size_re, delta->size_re, sizeof op->size_re);
+    memcpy(op->size_im, delta->size_im, sizeof op->size_im);
+    memcpy(op->r_re, r->re, sizeof op->r_re);
+    memcpy(op->r_im, r->im, sizeof op->r_im);
+    memcpy(op->r_size_re, r->size_re, sizeof op->r_size_re);
+    memcpy(op->r_size_im, r->size_im, sizeof op->r_size_im);
+    for (int k = 0; k <= DG_DEGREE; k++)
+        op->size[k] = op->size_re[k] + op->size_im[k];
+    for (int k = 0; k <= DG_R_DEGREE; k++)
+        op->r_size[k] = op->r_size_re[k] + op->r_size_im[k];
 }
 
 void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double complex qbar)
 {
-    shift s;
-    set_shift(&s, alpha, qbar);
+    const shift s = {alpha, cimag(qbar), -creal(qbar)};
     polynomial beam = {0}, pad = {0}, sleeper = {0}, ballast = {0}, foundation = {0};
     set_beam(&beam, t, &s);
     add_spring(&pad, t->eta_p, t->kappa_p, &s);
@@ -166,13 +172,7 @@ void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double co
     add_product(&r, 1, &pad, 1, &c, 2);
     add_product(&delta, 4, &pad, 1, &inner, 4);
     add_product(&delta, 1, &beam, 4, &r, 4);
-
-    memcpy(op->re, delta.re, sizeof op->re);
-    memcpy(op->im, delta.im, sizeof op->im);
-    memcpy(op->size, delta.size, sizeof op->size);
-    memcpy(op->r_re, r.re, sizeof op->r_re);
-    memcpy(op->r_im, r.im, sizeof op->r_im);
-    memcpy(op->r_size, r.size, sizeof op->r_size);
+    store(op, &delta, &r);
     const double inertia = alpha * alpha * t->mu_b;
     op->degree = alpha > 0 ? DG_DEGREE : t->eta_s > 0 ? 6 : 4;
     op->relative_a0 = alpha > 0 ? (inertia - t->eta_s) / (inertia + t->eta_s) : -1;

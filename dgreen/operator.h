@@ -64,13 +64,15 @@ void dg_track_free(dg_track *t); /* NULL allowed */
 void dg_constants_init(dg_constants *c, const dg_track *t, mpfr_prec_t precision);
 void dg_constants_clear(dg_constants *c);
 
-/* Delta and R in double at one (alpha, qbar).
- * Each computed coefficient differs from the exact one by at most 72 u times its size (u = 2^-53, derivation
- * in dgreen/bounds.h). */
+/* Delta and R in double at one (alpha, qbar). Each part of a coefficient differs from the exact one by at
+ * most 72 u times its size (u = 2^-53, derivation in dgreen/bounds.h). */
 typedef struct {
     double re[DG_DEGREE + 1], im[DG_DEGREE + 1]; /* Delta(i y) */
-    double size[DG_DEGREE + 1];                  /* the same sums with every term replaced by its modulus */
-    double r_re[DG_R_DEGREE + 1], r_im[DG_R_DEGREE + 1], r_size[DG_R_DEGREE + 1]; /* R(i y) */
+    double size_re[DG_DEGREE + 1],
+        size_im[DG_DEGREE + 1]; /* the same with every term replaced by its modulus */
+    double size[DG_DEGREE + 1]; /* size_re + size_im */
+    double r_re[DG_R_DEGREE + 1], r_im[DG_R_DEGREE + 1]; /* R(i y) */
+    double r_size_re[DG_R_DEGREE + 1], r_size_im[DG_R_DEGREE + 1], r_size[DG_R_DEGREE + 1];
     int degree;         /* 8; at alpha = 0: 6, or 4 where eta_s = 0 */
     double relative_a0; /* (alpha^2 mu_b - eta_s) / (alpha^2 mu_b + eta_s), 0 at the degree drop */
 } dg_operator;

@@ -7,68 +7,148 @@
 
 static const double UNIT = DBL_EPSILON / 2;
 
-/* R(i y), or u^4 R(i/u) when reversed, with a bound of its difference from the value at the exact root, which
- * is at most radius (units) away. */
-static inline dg_residue_sum numerator(const dg_operator *op, int reversed, double x, double y, double radius)
+/* R and R' at an approximation. size: size polynomial at "reach", a bound of |y*|. */
+typedef struct {
+    double re, im, slope_re, slope_im, size;
+} sample;
+
+static inline sample sample_r(const dg_operator *op, int reversed, double x, double y, double reach)
 {
-    double re = 0, im = 0, d_re = 0, d_im = 0, size = 0;
-    const double reach = sqrt(x * x + y * y) + radius * UNIT;
+    sample s = {0, 0, 0, 0, 0};
     for (int k = DG_R_DEGREE; k >= 0; k--) {
         const int at = reversed ? DG_R_DEGREE - k : k;
-        const double slope_re = d_re * x - d_im * y + re;
-        d_im = d_re * y + d_im * x + im;
-        d_re = slope_re;
-        const double value_re = re * x - im * y + op->r_re[at];
-        im = re * y + im * x + op->r_im[at];
-        re = value_re;
-        size = size * reach + op->r_size[at];
+        const double slope_re = s.slope_re * x - s.slope_im * y + s.re;
+        s.slope_im = s.slope_re * y + s.slope_im * x + s.im;
+        s.slope_re = slope_re;
+        const double value_re = s.re * x - s.im * y + op->r_re[at];
+        s.im = s.re * y + s.im * x + op->r_im[at];
+        s.re = value_re;
+        s.size = s.size * reach + op->r_size[at];
     }
-    const double slope = sqrt(d_re * d_re + d_im * d_im);
-    return (dg_residue_sum){re, im, dg_numerator_error(size, slope, reach, radius, UNIT)};
+    return s;
 }
 
-static inline dg_residue_sum quotient(dg_residue_sum top, double re, double im, double relative)
+static inline double modulus(double re, double im)
 {
-    const double norm = re * re + im * im;
-    const double modulus = sqrt(top.re * top.re + top.im * top.im);
-    return (dg_residue_sum){(top.re * re + top.im * im) / norm, (top.im * re - top.re * im) / norm,
-                            dg_quotient_error(modulus, top.error, sqrt(norm), relative, UNIT)};
+    return sqrt(re * re + im * im);
+}
+
+/* top/(derivative of root i); top is off by at most top_error (units) */
+static inline dg_residue quotient(double re, double im, double top_error, const dg_discs *d, int i)
+{
+    const double d_re = d->d_re[i], d_im = d->d_im[i], norm = d_re * d_re + d_im * d_im;
+    const double error = dg_quotient_error(modulus(re, im), top_error, sqrt(norm), d->d_error[i], UNIT);
+    return (dg_residue){(re * d_re + im * d_im) / norm, (im * d_re - re * d_im) / norm, error, error};
+}
+
+static dg_residue plain_residue(const dg_operator *op, const dg_roots *roots, const dg_discs *d, int i)
+{
+    const double x = roots->re[i], y = roots->im[i], reach = modulus(x, y) + d->radius[i] * UNIT;
+    const sample s = sample_r(op, 0, x, y, reach);
+    const double slope = modulus(s.slope_re, s.slope_im);
+    return quotient(s.re, s.im, dg_numerator_error(s.size, slope, reach, d->radius[i], UNIT), d, i);
 }
 
 /* With u = 1/y the residue is -u^2 [u^4 R(i/u)]/[d/du u^8 Delta(i/u)]: of third order in u. */
-static dg_residue_sum far_residue(const dg_operator *op, const dg_roots *roots, const dg_discs *discs, int i)
+static dg_residue far_residue(const dg_operator *op, const dg_roots *roots, const dg_discs *d, int i)
 {
-    const double x = roots->re[i], y = roots->im[i], radius = discs->radius[i];
-    const dg_residue_sum top = numerator(op, 1, x, y, radius);
-    const double reach = hypot(x, y) + radius * UNIT, modulus = hypot(top.re, top.im) + top.error * UNIT;
+    const double x = roots->re[i], y = roots->im[i], radius = d->radius[i];
+    const double reach = modulus(x, y) + radius * UNIT;
+    const sample s = sample_r(op, 1, x, y, reach);
+    const double slope = modulus(s.slope_re, s.slope_im);
+    const double top_error = dg_numerator_error(s.size, slope, reach, radius, UNIT);
+    const double top = modulus(s.re, s.im) + top_error * UNIT;
     const double u2_re = x * x - y * y, u2_im = 2 * x * y;
-    const dg_residue_sum scaled = {-(u2_re * top.re - u2_im * top.im), -(u2_re * top.im + u2_im * top.re),
-                                   reach * reach * top.error + 2 * reach * radius * modulus +
-                                       8 * reach * reach * modulus};
-    return quotient(scaled, discs->d_re[i], discs->d_im[i], discs->d_error[i]);
+    const double error = reach * reach * (top_error + 8 * top) + 2 * reach * radius * top;
+    return quotient(-(u2_re * s.re - u2_im * s.im), -(u2_re * s.im + u2_im * s.re), error, d, i);
 }
 
-static inline void add(dg_residue_sum *sum, dg_residue_sum r)
+/* Sizes of the parts of R at a flat root */
+static inline void size_parts(double *re, double *im, const dg_operator *op, double x, double y)
+{
+    double sum_re = 0, sum_im = 0;
+    for (int k = DG_R_DEGREE; k >= 0; k--) {
+        const double next = sum_re * x + sum_im * y + op->r_size_re[k];
+        sum_im = sum_re * y + sum_im * x + op->r_size_im[k];
+        sum_re = next;
+    }
+    *re = DG_R_UNITS * sum_re;
+    *im = DG_R_UNITS * sum_im;
+}
+
+/* A flat root, parts apart. With d = y - y*, E = sum of 1/(y - y_k*), x = |d| crowding <= 0.05:
+ *     R(y*)      = R - R' d + e,                        |e| <= 6 size/reach^2 |d|^2
+ *     1/f'(y*)   = (1/f') (1 + 2 d E + e'),             |e'| <= 2.5 x^2          (products of differences)
+ * hence the residue is r + d (2 E r - R'/f') + rounding + terms of second order in d and the rounding. */
+static inline dg_residue flat_residue(const dg_operator *op, const dg_roots *roots, const dg_discs *d, int i)
+{
+    const double x = roots->re[i], y = roots->im[i], radius = d->radius[i], absolute = radius * UNIT;
+    const double reach = modulus(x, y) + absolute;
+    const sample s = sample_r(op, 0, x, y, reach);
+    double top_re, top_im;
+    size_parts(&top_re, &top_im, op, fabs(x), fabs(y));
+
+    const double d_re = d->d_re[i], d_im = d->d_im[i], norm = d_re * d_re + d_im * d_im, slope = sqrt(norm);
+    const double g_re = d_re / norm, g_im = -d_im / norm; /* 1/f' */
+    dg_residue r = {s.re * g_re - s.im * g_im, s.re * g_im + s.im * g_re, 0, 0};
+    const double t_re =
+        2 * (d->field_re[i] * r.re - d->field_im[i] * r.im) - (s.slope_re * g_re - s.slope_im * g_im);
+    const double t_im =
+        2 * (d->field_re[i] * r.im + d->field_im[i] * r.re) - (s.slope_re * g_im + s.slope_im * g_re);
+    const double k_re = r.re * g_re - r.im * g_im, k_im = r.re * g_im + r.im * g_re;
+
+    /* first order: movement d t, rounding e g of R and e' k of f', rounding of the quotient */
+    r.error_re = radius * fabs(t_re) + d->radius_im[i] * fabs(t_im) + top_re * fabs(g_re) +
+                 top_im * fabs(g_im) + d->rounding_re[i] * fabs(k_re) + d->rounding_im[i] * fabs(k_im) +
+                 8 * (fabs(s.re * g_re) + fabs(s.im * g_im));
+    r.error_im = radius * fabs(t_im) + d->radius_im[i] * fabs(t_re) + top_re * fabs(g_im) +
+                 top_im * fabs(g_re) + d->rounding_im[i] * fabs(k_re) + d->rounding_re[i] * fabs(k_im) +
+                 8 * (fabs(s.re * g_im) + fabs(s.im * g_re));
+
+    /* second order: everything that can be wrong with f', R, E and d, relative to itself */
+    const double whole = modulus(r.re, r.im), crowding = d->crowding[i];
+    const double relative =
+        (d->d_error[i] + 16) * UNIT + d->field_error[i] / crowding + 3 * absolute * crowding;
+    const double movement = radius * (2 * crowding * whole + modulus(s.slope_re, s.slope_im) / slope);
+    const double rounding = (top_re + top_im + (d->rounding_re[i] + d->rounding_im[i]) * whole) / slope;
+    const double curvature = s.size * absolute / (reach * slope) * (6 * radius / reach + 8 * DG_R_UNITS);
+    const double product = absolute * crowding * radius * crowding * whole;
+    const double second = 3 * (movement + rounding) * relative + 2 * curvature + 2.5 * product;
+    r.error_re += second;
+    r.error_im += second;
+    return r;
+}
+
+static inline void add(dg_residue *sum, dg_residue r)
 {
     sum->re += r.re;
     sum->im += r.im;
-    sum->error += r.error + 8 * (fabs(r.re) + fabs(r.im));
+    sum->error_re += r.error_re + 8 * fabs(r.re);
+    sum->error_im += r.error_im + 8 * fabs(r.im);
 }
 
-static void add_doubtful(dg_residues *out, dg_residue_sum r)
+static void add_doubtful(dg_residues *out, dg_residue r)
 {
-    const double size = hypot(r.re, r.im) / UNIT + r.error;
-    out->right.error += size;
-    out->left.error += size;
+    const double size = modulus(r.re, r.im) / UNIT + r.error_re;
+    out->right.error_re += size;
+    out->right.error_im += size;
+    out->left.error_re += size;
+    out->left.error_im += size;
 }
 
 /* Re lambda = -Im y; Im(1/y) has the other sign. */
-static int side(const dg_roots *roots, const dg_discs *discs, int i, int far)
+static inline int side(const dg_roots *roots, const dg_discs *discs, int i, int far)
 {
     const double real_part = far ? roots->im[i] : -roots->im[i];
-    if (!(fabs(real_part) > discs->radius[i] * UNIT))
+    if (!(fabs(real_part) > discs->radius_im[i] * UNIT))
         return 0;
     return real_part > 0 ? 1 : -1;
+}
+
+static int balanced(const dg_residues *s)
+{
+    return fabs(s->right.re + s->left.re) <= (s->right.error_re + s->left.error_re) * UNIT &&
+           fabs(s->right.im + s->left.im) <= (s->right.error_im + s->left.error_im) * UNIT;
 }
 
 cv_status dg_residues_sum(dg_residues *out, const dg_operator *op, const dg_roots *roots,
@@ -80,13 +160,9 @@ cv_status dg_residues_sum(dg_residues *out, const dg_operator *op, const dg_root
         const int to = side(roots, discs, i, far);
         if (to == 0 && !far)
             return CV_UNDECIDED;
-        dg_residue_sum r;
-        if (far) {
-            r = far_residue(op, roots, discs, i);
-        } else {
-            const dg_residue_sum top = numerator(op, 0, roots->re[i], roots->im[i], discs->radius[i]);
-            r = quotient(top, discs->d_re[i], discs->d_im[i], discs->d_error[i]);
-        }
+        const dg_residue r = far              ? far_residue(op, roots, discs, i)
+                             : discs->flat[i] ? flat_residue(op, roots, discs, i)
+                                              : plain_residue(op, roots, discs, i);
         if (to == 0) {
             add_doubtful(out, r);
             continue;
@@ -95,6 +171,5 @@ cv_status dg_residues_sum(dg_residues *out, const dg_operator *op, const dg_root
         out->right_count += to > 0;
         out->left_count += to < 0;
     }
-    const double total = hypot(out->right.re + out->left.re, out->right.im + out->left.im);
-    return total <= (out->right.error + out->left.error) * UNIT ? CV_OK : CV_FAILED;
+    return balanced(out) ? CV_OK : CV_FAILED;
 }

@@ -4,14 +4,13 @@
 
 #include "dgreen/roots.h"
 
-/* A sum of residues R(i y)/(d Delta(i y)/dy); |computed - exact| <= error units of 2^-53 */
+/* A sum of residues R(i y)/(d Delta(i y)/dy); each part is off by at most its error, units of 2^-53 */
 typedef struct {
-    double re, im, error;
-} dg_residue_sum;
+    double re, im, error_re, error_im;
+} dg_residue;
 
 typedef struct {
-    dg_residue_sum right,
-        left; /* over Re lambda > 0 and Re lambda < 0; right + left = 0 for the exact sums */
+    dg_residue right, left; /* over Re lambda > 0 and Re lambda < 0; right + left = 0 for the exact sums */
     int right_count, left_count;
 } dg_residues;
 

@@ -14,11 +14,22 @@ typedef struct {
 } dg_roots;
 
 /* For each root: Delta' and what is known about the exact root. Errors in units of 2^-53 (dgreen/bounds.h).
- * For the far root they belong to the reversed polynomial u^8 Delta(i/u) and to u. */
+ * For the far root they belong to the reversed polynomial u^8 Delta(i/u) and to u.
+ *
+ * "flat" roots lie close to the real axis of y, where small damping leaves them. Their real and imaginary
+ * parts have bounds of their own, since the rounding of the large real parts of the coefficients does not
+ * reach the small imaginary parts. */
 typedef struct {
     double d_re[DG_DEGREE], d_im[DG_DEGREE]; /* d Delta(i y)/dy at the approximation */
     double d_error[DG_DEGREE];               /* relative: of d_re + i d_im as its value at the exact root */
-    double radius[DG_DEGREE]; /* the disc around the approximation holds exactly one exact root */
+    double radius[DG_DEGREE];    /* the disc around the approximation holds exactly one exact root */
+    double radius_im[DG_DEGREE]; /* |Im(y - exact root)|, at most radius */
+    double crowding[DG_DEGREE];  /* sum over the others of 1/(least distance) */
+    int flat[DG_DEGREE];
+    /* flat roots only */
+    double rounding_re[DG_DEGREE], rounding_im[DG_DEGREE]; /* of d_re, d_im: rounding only */
+    double field_re[DG_DEGREE], field_im[DG_DEGREE];       /* sum over the others of 1/(y_i - y_k) */
+    double field_error[DG_DEGREE];                         /* absolute */
 } dg_discs;
 
 /* Eigenvalues of the balanced companion matrix (LAPACK zhseqr), not polished. CV_UNDECIDED where LAPACK does

@@ -199,7 +199,7 @@ static cv_status enclose(dg_mp_roots *roots, const dg_mp_operator *op)
         for (int k = 0; k < i; k++)
             s.distance[i][k] = s.distance[k][i] = cabs(difference(roots, roots->y[i], roots->y[k]));
     }
-    return dg_separate(roots->radius, roots->slope_relative, &s);
+    return dg_separate(roots->radius, roots->slope_relative, roots->crowding, &s);
 }
 
 cv_status dg_mp_roots_find(dg_mp_roots *roots, const dg_mp_operator *op, const dg_roots *start, int on_axis)

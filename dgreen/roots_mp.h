@@ -12,7 +12,7 @@ typedef struct {
     int count, far;
     mpc_t y[DG_DEGREE];     /* approximations; slot count-1 holds u = 1/y where far is set */
     mpc_t slope[DG_DEGREE]; /* d Delta(i y)/dy there; of the reversed polynomial for the far root */
-    double radius[DG_DEGREE], slope_relative[DG_DEGREE]; /* units; see dg_separate */
+    double radius[DG_DEGREE], slope_relative[DG_DEGREE], crowding[DG_DEGREE]; /* see dg_separate */
     /* scratch */
     mpc_t value, derivative, step;
     mpfr_t t[4], difference;

@@ -38,17 +38,15 @@ dg_counters dg_follow_counters(const dg_follow *f)
 
 /* zeta = 4 qbar^2 sum R/Delta'(lambda) = -4 i w^2 sum R/(d Delta(i y)/dy), w = -i qbar. For real w (qbar = i
  * q) each part of zeta comes from one part of the sum. */
-static void scale(dg_value *value, const dg_residue_sum *sum, double complex qbar)
+static void scale(dg_value *value, const dg_residue *sum, double complex qbar)
 {
     const double w_re = cimag(qbar), w_im = -creal(qbar);
     const double f_re = 8 * w_re * w_im, f_im = -4 * (w_re - w_im) * (w_re + w_im);
     value->re = f_re * sum->re - f_im * sum->im;
     value->im = f_re * sum->im + f_im * sum->re;
-    const double size = fabs(f_re) + fabs(f_im);
-    const double common = size * sum->error * UNIT * (1 + 16 * UNIT);
-    const double cross = 8 * UNIT;
-    value->re_error = common + cross * (fabs(f_re * sum->re) + fabs(f_im * sum->im));
-    value->im_error = common + cross * (fabs(f_re * sum->im) + fabs(f_im * sum->re));
+    const double re = sum->error_re + 8 * fabs(sum->re), im = sum->error_im + 8 * fabs(sum->im);
+    value->re_error = (fabs(f_re) * re + fabs(f_im) * im) * UNIT * (1 + 16 * UNIT);
+    value->im_error = (fabs(f_re) * im + fabs(f_im) * re) * UNIT * (1 + 16 * UNIT);
 }
 
 /* Damping or Re qbar > 0 leave no lambda on the imaginary axis below buckling, so the count depends on the
