@@ -12,7 +12,7 @@ typedef struct {
     const sa_track *track;
     const cv_number *alpha, *q, *xi;
     long double tolerance; /* relative, of each part */
-    double complex start[SA_POLES_MAX];
+    double complex start[SA_STARTS_MAX];
     int starts;
 } request;
 

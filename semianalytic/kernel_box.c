@@ -21,17 +21,16 @@ static double complex huge_pole(const sa_track *t, const cv_number *alpha, doubl
     return velocity * CMPLX(2 * t->mu_b.m * q, -t->loss_b.m - t->loss_f.m) / difference;
 }
 
-cv_status sa_kernel_starts(double complex start[SA_POLES_MAX], int *n, const sa_track *t,
+cv_status sa_kernel_starts(double complex start[SA_STARTS_MAX], int *n, const sa_track *t,
                            const cv_number *alpha, const cv_number *q)
 {
-    int degree;
+    enum { HUGE_FROM = 1000000 }; /* below, the eigenvalue solver finds it well enough */
     double q_double = cv_number_get_double(q);
-    sa_matrix_upper_count(&degree, t, alpha);
     cv_status status = sa_poles_cold(start, n, t, cv_number_get_double(alpha), q_double);
-    if (status != CV_OK || *n >= degree)
+    if (status != CV_OK)
         return status;
     double complex extra = huge_pole(t, alpha, q_double);
-    if (isfinite(creal(extra)) && isfinite(cimag(extra)))
+    if (isfinite(creal(extra)) && isfinite(cimag(extra)) && cabs(extra) > HUGE_FROM)
         start[(*n)++] = extra;
     return CV_OK;
 }

@@ -169,7 +169,7 @@ int sa_pole_set_find(sa_pole_set *set, const double complex *start, int n, int s
 {
     int upper = 0;
     set->count = 0;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n && set->count < SA_POLES_MAX; i++) {
         if (!find(set, start[i]) || !is_new(set)) {
             if (!skip)
                 return 0;

@@ -18,7 +18,7 @@ static int find_warm(sa_pole_set *set, sa_sweep *state, const sa_track *t)
 static cv_status find_cold(sa_pole_set *set, sa_sweep *state, const sa_track *t, const cv_number *alpha,
                            const cv_number *q)
 {
-    double complex start[SA_POLES_MAX];
+    double complex start[SA_STARTS_MAX];
     int n;
     state->counts.cold_starts++;
     cv_status status = sa_kernel_starts(start, &n, t, alpha, q);
