@@ -2,7 +2,7 @@
 
 #include "jet.h"
 
-enum { MAX_PRECISION = 1 << 16, DEGREE = 8 };
+enum { MAX_PRECISION = 1 << 16, DEGREE = 8, MAX_PASSES = 12, SPARE_BITS = 40 };
 
 void ref_zeta_init(ref_zeta *z)
 {
@@ -58,14 +58,31 @@ static void workspace_clear(workspace *w)
         acb_clear(&w->roots[i]);
 }
 
-/* All roots isolated, and the real ones known as real where the coefficients are real. */
+/* Bits of the least accurate root. */
+static slong roots_accuracy(const workspace *w)
+{
+    slong bits = ARF_PREC_EXACT;
+    for (slong k = 0; k < w->degree; k++)
+        bits = FLINT_MIN(bits, acb_rel_accuracy_bits(&w->roots[k]));
+    return bits;
+}
+
+/* All roots isolated, and the real ones known as real where the coefficients are real. acb_poly_find_roots
+ * stops as soon as the roots are isolated: it is called again from its own result while that still helps. */
 static int isolate(workspace *w, slong prec)
 {
+    slong before = 0, bits = -ARF_PREC_EXACT;
     w->degree = acb_poly_degree(w->d3.v);
     if (w->degree < 1 || w->degree > DEGREE)
         return -1;
-    if (acb_poly_find_roots(w->roots, w->d3.v, NULL, 0, prec) != w->degree)
-        return -1;
+    for (int pass = 0; pass < MAX_PASSES && bits < prec - SPARE_BITS; pass++) {
+        before = bits;
+        if (acb_poly_find_roots(w->roots, w->d3.v, pass == 0 ? NULL : w->roots, 0, prec) != w->degree)
+            return -1;
+        bits = roots_accuracy(w);
+        if (pass > 0 && bits < before + 4)
+            break;
+    }
     if (w->undamped && !acb_poly_validate_real_roots(w->roots, w->d3.v, prec))
         return -1;
     return 0;

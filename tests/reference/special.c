@@ -1,4 +1,5 @@
-/* Special velocities: see dispersion.h. The branch curves are cut into cells that are monotone in alpha. */
+/* Special velocities: see dispersion.h. The branch curves are cut into cells that are monotone in alpha and
+ * do not touch q = 0 inside. */
 #include "dispersion.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@ static const double grid_log_min = -9.0, grid_step = 0.00375;
 /* A piece of branch k between the wavenumbers p[0] < p[1]. */
 typedef struct {
     int k;
-    double p[2], alpha[2], q[2], turn[2]; /* turn: omega - p omega', whose absolute value is q */
+    double p[2], alpha[2], q[2];
 } cell;
 
 typedef struct {
@@ -31,21 +32,28 @@ static int compare(const void *x, const void *y)
     return (a > b) - (a < b);
 }
 
-static double group_slope(const ref_dtrack *t, int k, double p)
+/* What cuts a branch into cells: the slope of omega', or omega - p omega'; both change sign at a node. */
+typedef enum { CUSP, TURN } node;
+
+static double node_value(const ref_dtrack *t, int k, node what, double p)
 {
     double omega[3], before[3], after[3], h = 1e-5 * p;
+    if (what == TURN) {
+        ref_dispersion(omega, before, t, p);
+        return omega[k] - p * before[k];
+    }
     ref_dispersion(omega, before, t, p - h);
     ref_dispersion(omega, after, t, p + h);
     return after[k] - before[k];
 }
 
-/* The wavenumber of the cusp between two grid points where the slope of omega' changes sign. */
-static double find_cusp(const ref_dtrack *t, int k, double lo, double hi)
+/* The wavenumber between two grid points where the value changes sign. */
+static double find_node(const ref_dtrack *t, int k, node what, double lo, double hi)
 {
-    double sign = group_slope(t, k, lo);
+    double sign = node_value(t, k, what, lo);
     for (int i = 0; i < BISECTIONS; i++) {
         double mid = 0.5 * (lo + hi);
-        if (sign * group_slope(t, k, mid) > 0)
+        if (sign * node_value(t, k, what, mid) > 0)
             lo = mid;
         else
             hi = mid;
@@ -59,35 +67,44 @@ static void set_end(cell *c, int end, const ref_dtrack *t, double p)
     ref_dispersion(omega, group, t, p);
     c->p[end] = p;
     c->alpha[end] = fabs(group[c->k]);
-    c->turn[end] = omega[c->k] - p * group[c->k];
-    c->q[end] = fabs(c->turn[end]);
+    c->q[end] = fabs(omega[c->k] - p * group[c->k]);
 }
 
-/* The cells of branch k, cusps included as nodes; the cusps' velocities go to the list. */
+static size_t add_cell(cell *out, size_t n, const ref_dtrack *t, int k, double from, double to)
+{
+    out[n].k = k;
+    set_end(&out[n], 0, t, from);
+    set_end(&out[n], 1, t, to);
+    return n + 1;
+}
+
+/* The cells of branch k; the velocities of its nodes (cusps, q = 0) go to the list. */
 static size_t make_cells(cell *out, size_t n, const ref_dtrack *t, int k, list *found)
 {
-    double last = exp(grid_log_min), slope = group_slope(t, k, last);
-    for (int i = 1; i < GRID_SIZE && n + 2 < CELLS; i++) {
-        double p = exp(grid_log_min + grid_step * i), next = group_slope(t, k, p);
-        if (slope * next < 0) {
-            double cusp = find_cusp(t, k, last, p);
-            out[n].k = k;
-            set_end(&out[n], 0, t, last);
-            set_end(&out[n], 1, t, cusp);
-            add(found, out[n++].alpha[1]);
-            last = cusp;
+    double last = exp(grid_log_min), value[2] = {node_value(t, k, CUSP, last), node_value(t, k, TURN, last)};
+    for (int i = 1; i < GRID_SIZE && n + 3 < CELLS; i++) {
+        double p = exp(grid_log_min + grid_step * i), cut[2] = {p, p};
+        for (int what = CUSP; what <= TURN; what++) {
+            double next = node_value(t, k, (node)what, p);
+            if (value[what] * next < 0)
+                cut[what] = find_node(t, k, (node)what, last, p);
+            value[what] = next;
         }
-        out[n].k = k;
-        set_end(&out[n], 0, t, last);
-        set_end(&out[n++], 1, t, p);
-        last = p;
-        slope = next;
+        double ends[] = {fmin(cut[0], cut[1]), fmax(cut[0], cut[1]), p};
+        for (int j = 0; j < 3; j++) {
+            if (!(ends[j] > last))
+                continue;
+            n = add_cell(out, n, t, k, last, ends[j]);
+            if (j < 2 && ends[j] < p)
+                add(found, out[n - 1].alpha[1]);
+            last = ends[j];
+        }
     }
     return n;
 }
 
-/* q (want = 0) or the signed turn (want = 1) of the point of a monotone cell that has this alpha. */
-static double cell_at(const cell *c, const ref_dtrack *t, double alpha, int want)
+/* q of the point of a monotone cell that has this alpha. */
+static double cell_at(const cell *c, const ref_dtrack *t, double alpha)
 {
     cell x = *c;
     int rising = c->alpha[1] > c->alpha[0];
@@ -97,27 +114,21 @@ static double cell_at(const cell *c, const ref_dtrack *t, double alpha, int want
         int end = (mid.alpha[0] < alpha) != rising;
         x.p[end] = mid.p[0];
         x.q[end] = mid.q[0];
-        x.turn[end] = mid.turn[0];
     }
-    return want ? 0.5 * (x.turn[0] + x.turn[1]) : 0.5 * (x.q[0] + x.q[1]);
+    return 0.5 * (x.q[0] + x.q[1]);
 }
 
-/* The velocity where the curves of two cells cross (b NULL: where a crosses q = 0), if they do. */
+/* The velocity where the curves of two cells cross, if they do. */
 static void find_crossing(list *found, const cell *a, const cell *b, const ref_dtrack *t)
 {
-    double lo = fmin(a->alpha[0], a->alpha[1]), hi = fmax(a->alpha[0], a->alpha[1]), at_lo = 0, at_hi = 0;
-    if (b != NULL) {
-        lo = fmax(lo, fmin(b->alpha[0], b->alpha[1]));
-        hi = fmin(hi, fmax(b->alpha[0], b->alpha[1]));
-    }
-    at_lo = cell_at(a, t, lo, b == NULL) - (b == NULL ? 0 : cell_at(b, t, lo, 0));
-    at_hi = cell_at(a, t, hi, b == NULL) - (b == NULL ? 0 : cell_at(b, t, hi, 0));
+    double lo = fmax(fmin(a->alpha[0], a->alpha[1]), fmin(b->alpha[0], b->alpha[1]));
+    double hi = fmin(fmax(a->alpha[0], a->alpha[1]), fmax(b->alpha[0], b->alpha[1]));
+    double at_lo = cell_at(a, t, lo) - cell_at(b, t, lo), at_hi = cell_at(a, t, hi) - cell_at(b, t, hi);
     if (!(at_lo * at_hi < 0))
         return;
     for (int i = 0; i < BISECTIONS; i++) {
         double mid = 0.5 * (lo + hi);
-        double f = cell_at(a, t, mid, b == NULL) - (b == NULL ? 0 : cell_at(b, t, mid, 0));
-        if (f * at_lo > 0)
+        if ((cell_at(a, t, mid) - cell_at(b, t, mid)) * at_lo > 0)
             lo = mid;
         else
             hi = mid;
@@ -135,8 +146,6 @@ static void find_crossings(list *found, const cell *c, size_t n, const ref_dtrac
     for (size_t i = 0; i < n; i++) {
         if (fmax(c[i].alpha[0], c[i].alpha[1]) < found->lo || fmin(c[i].alpha[0], c[i].alpha[1]) > found->hi)
             continue;
-        if (c[i].turn[0] * c[i].turn[1] < 0)
-            find_crossing(found, &c[i], NULL, t);
         for (size_t j = i + 2; j < n; j++)
             if (!apart(c[i].alpha, c[j].alpha) && !apart(c[i].q, c[j].q))
                 find_crossing(found, &c[i], &c[j], t);
