@@ -1,0 +1,20 @@
+/* Subcommands of critvel-dgreen; each in its own command_<name>.c, listed in main.c. */
+#ifndef CRITVEL_DGREEN_COMMAND_H
+#define CRITVEL_DGREEN_COMMAND_H
+
+#include <stdio.h>
+
+#include "common/selection.h"
+
+/* What was typed: the target of main.c's option table. */
+typedef struct {
+    cv_selection selection;
+} dg_options;
+
+/* As cv_work: reads FILE at path, writes the answer to out; warnings to log. */
+typedef cv_status dg_command(const dg_options *options, const char *path, FILE *out, FILE *log,
+                             cv_message *why);
+
+dg_command dg_command_z; /* zeta (and z) at one point */
+
+#endif
