@@ -60,7 +60,7 @@ static int long_options(struct option *table, const cv_program *program)
 {
     enum { FOUND = 256 };
     int n = 0;
-    for (; program->options[n].name != NULL && n < MAX_OPTIONS; ++n)
+    for (; n < MAX_OPTIONS && program->options[n].name != NULL; ++n)
         table[n] =
             (struct option){program->options[n].name,
                             program->options[n].is_flag ? no_argument : required_argument, NULL, FOUND};

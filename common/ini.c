@@ -14,6 +14,8 @@
 enum {
     MAX_FILE = 4 << 20,
     MAX_LINE = 65536,
+    MAX_SECTIONS = 10000,  /* so that looking for duplicates stays quick */
+    MAX_KEYS = 1000,       /* of a section */
     MAX_SECTION_NAME = 49, /* what inih keeps of one */
     SHOWN = 60             /* characters of the file that a message repeats */
 };
@@ -102,6 +104,10 @@ static void cut_comment(char *s)
 static int add_section(reader *r, const char *name, size_t length)
 {
     cv_ini *ini = r->ini;
+    if (ini->count == MAX_SECTIONS) {
+        WRONG(r, "more than %d sections", MAX_SECTIONS);
+        return 0;
+    }
     cv_ini_section *larger = realloc(ini->sections, (ini->count + 1) * sizeof *larger);
     if (larger == NULL)
         return out_of_memory(r);
@@ -221,6 +227,10 @@ static int add_entry(reader *r, cv_ini_section *s, const char *key, const char *
     const cv_ini_entry *first = cv_ini_find(s, key);
     if (first != NULL) {
         WRONG(r, "duplicate key '%s' (first on line %d)", key, first->line);
+        return 0;
+    }
+    if (s->count == MAX_KEYS) {
+        WRONG(r, "more than %d keys in a section", MAX_KEYS);
         return 0;
     }
     cv_ini_entry *larger = realloc(s->entries, (s->count + 1) * sizeof *larger);

@@ -29,7 +29,8 @@ typedef struct {
  * "[section]", "key = value" (or "key: value"), or empty; ';' or '#' at the beginning of a line or after a
  * blank starts a comment. Leading blanks mean nothing.
  * CV_BAD_INPUT "path: ..." or "path:line: ..." for a file that cannot be opened, is a directory, is empty, is
- * larger than 4 MiB or is not such text, for lines over 65536 bytes and for a key twice in a section.
+ * larger than 4 MiB or is not such text, for lines over 65536 bytes, for a key twice in a section and
+ * for more than 10000 sections or 1000 keys in one.
  * CV_FAILED: out of memory, read error. On failure nothing is allocated. */
 cv_status cv_ini_read(cv_ini *out, const char *path, cv_message *why);
 void cv_ini_clear(cv_ini *ini);

@@ -384,6 +384,32 @@ START_TEST(huge_lines)
 }
 END_TEST
 
+/* Files that would take long to search for duplicates are refused. */
+START_TEST(too_many)
+{
+    char *text = NULL;
+    size_t size;
+    cv_casefile f;
+    cv_message why;
+    char path[64];
+    FILE *out = open_memstream(&text, &size);
+    for (int i = 0; i < 200000; ++i)
+        fprintf(out, "[case %d]\n", i);
+    fclose(out);
+    ck_assert_int_eq(read_bytes(&f, text, size, &why, path), CV_BAD_INPUT);
+    ck_assert_str_eq(why.text + strlen(path), ":10001: more than 10000 sections");
+    free(text);
+    out = open_memstream(&text, &size);
+    fprintf(out, "[run]\n");
+    for (int i = 0; i < 200000; ++i)
+        fprintf(out, "key%d=1\n", i);
+    fclose(out);
+    ck_assert_int_eq(read_bytes(&f, text, size, &why, path), CV_BAD_INPUT);
+    ck_assert_str_eq(why.text + strlen(path), ":1002: more than 1000 keys in a section");
+    free(text);
+}
+END_TEST
+
 /* A line of 65536 bytes is read, one more is not. */
 START_TEST(longest_line)
 {
@@ -472,6 +498,7 @@ int main(void)
     tcase_add_test(c, file_without_permission);
     tcase_add_test(c, nul_byte);
     tcase_add_test(c, huge_lines);
+    tcase_add_test(c, too_many);
     tcase_add_test(c, longest_line);
     tcase_add_test(c, characters_of_every_length);
     tcase_add_test(c, random_mutations);
