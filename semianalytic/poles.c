@@ -65,30 +65,38 @@ static double complex deflated_step(const sa_point *m, const double complex *fou
     return m->det / (m->det_p - m->det * pull);
 }
 
-static int small(double part, double whole)
+static int small(double complex step, double complex p, double limit)
 {
-    return fabs(part) <= 0x1p-23 * fabs(whole);
+    return fabs(creal(step)) <= limit * cabs(p) && fabs(cimag(step)) <= limit * fabs(cimag(p));
 }
 
 static int iterate(double complex *p, sa_point *m, const sa_track *t, double alpha, double complex q,
                    const double complex *found, int n, int limit)
 {
+    /* Near a double root rounding keeps the relative step of a tiny imaginary part above the fine limit: two
+     * steps below the coarse one are as good as it gets, and the enclosure judges. */
+    const double fine = 0x1p-23, coarse = 0x1p-14;
     int close = 0;
-    for (int i = 0; i < limit && !close; i++) {
+    for (int i = 0; i < limit && close < 2; i++) {
         sa_matrix_point(m, t, alpha, q, *p);
         double complex step = deflated_step(m, found, n);
         *p -= step;
         if (!isfinite(creal(*p)) || !isfinite(cimag(*p)))
             return 0;
-        close = small(creal(step), cabs(*p)) && small(cimag(step), cimag(*p));
+        if (small(step, *p, fine))
+            close = 2;
+        else if (small(step, *p, coarse))
+            close++;
+        else
+            close = 0;
     }
     sa_matrix_point(m, t, alpha, q, *p);
-    return close;
+    return close > 0;
 }
 
 int sa_poles_newton(double complex *p, sa_point *m, const sa_track *t, double alpha, double complex q)
 {
-    enum { WARM_STEPS = 8 };
+    enum { WARM_STEPS = 16 };
     return iterate(p, m, t, alpha, q, NULL, 0, WARM_STEPS);
 }
 

@@ -12,7 +12,7 @@ enum { SA_POLES_MAX = 8, SA_UPPER_MAX = 3 };
 cv_status sa_poles_cold(double complex out[SA_POLES_MAX], int *count, const sa_track *t, double alpha,
                         double complex q);
 
-/* Newton's iteration from *p; m is the matrix at the result. 1 when it converged (relative step below 1e-7 in
+/* Newton's iteration from *p; m is the matrix at the result. 1 when it converged (relative step below 6e-5 in
  * both parts before the last step), without any bound. */
 int sa_poles_newton(double complex *p, sa_point *m, const sa_track *t, double alpha, double complex q);
 
