@@ -3,7 +3,7 @@
 #include <tgmath.h>
 
 enum { MAX_STEPS = 200000, REFINEMENTS = 80 };
-static const double q_min = 2e-5, move_max = 0.25, move_good = 0.12, step_max = 0.03;
+static const double q_min = 2e-5, move_max = 0.12, move_good = 0.06, step_max = 0.03;
 static const ref_real epsilon = sizeof(ref_real) > sizeof(double) ? (ref_real)1e-19L : (ref_real)1e-16L;
 
 typedef struct {
@@ -60,12 +60,8 @@ static int refine(const scan *s, ref_state a, ref_state b)
 static int check_extremum(const scan *s, ref_state a, ref_state m, ref_state b)
 {
     ref_real sign = a.im > 0 ? 1 : -1;
-    ref_real da = (m.im - a.im) / (m.q - a.q), db = (b.im - m.im) / (b.q - m.q);
-    ref_real curve = (db - da) / (b.q - a.q), slope = da + curve * (m.q - a.q);
-    if (!(sign * (m.im - 0.25 * slope * slope / curve) < 0.5 * sign * m.im))
-        return 0;
     ref_state left = a, right = b, x;
-    for (int i = 0; i < 40 && b.q - a.q > 100 * epsilon * a.q; i++) {
+    for (int i = 0; i < 30 && b.q - a.q > 100 * epsilon * a.q; i++) {
         int upper_part = b.q - m.q > m.q - a.q;
         ref_real q = upper_part ? m.q + 0.38 * (b.q - m.q) : m.q - 0.38 * (m.q - a.q);
         if ((upper_part ? between(&x, s, &m, &b, q) : between(&x, s, &a, &m, q)) != 0)
