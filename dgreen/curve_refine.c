@@ -5,9 +5,9 @@
 
 enum { ROUNDS = 60, MAX_NODES = 100000 };
 /* A dip is left alone when the parabola through it stays above this part of its value. */
-static const double DIP_CLEARANCE = 0.6;
+static const double DIP_CLEARANCE = 0.85;
 /* ... and its neighbours are not higher than this many times: otherwise the parabola means little. */
-static const double DIP_RATIO = 10;
+static const double DIP_RATIO = 6;
 /* cos of the largest turning of the polyline that is accepted next to the real axis: 60 degrees */
 static const double COS_TURN = 0.5;
 /* Part of the interval below which the doubles end */
@@ -18,14 +18,16 @@ static int positive(const dg_node *n)
     return n->im > 0;
 }
 
-/* |Im zeta| smallest at b, and perhaps zero beside it */
-static int dip_may_hide(const dg_node *a, const dg_node *b, const dg_node *c)
+/* |Im zeta| smallest at b, and perhaps zero beside it; then *lowest is where the parabola through the three
+ * has its minimum */
+static int dip_may_hide(double *lowest, const dg_node *a, const dg_node *b, const dg_node *c)
 {
     const double fa = fabs(a->im), fb = fabs(b->im), fc = fabs(c->im);
     if (positive(a) != positive(b) || positive(b) != positive(c) || !(fb <= fa && fb <= fc))
         return 0;
     const double h = b->q - a->q, k = c->q - b->q, left = (fb - fa) / h, right = (fc - fb) / k;
     const double slope = (left * k + right * h) / (h + k), curvature = (right - left) / (h + k);
+    *lowest = curvature > 0 ? b->q - slope / (2 * curvature) : b->q;
     const double least = curvature > 0 ? fb - slope * slope / (4 * curvature) : fb;
     return least < DIP_CLEARANCE * fb || fmax(fa, fc) > DIP_RATIO * fb;
 }
@@ -52,13 +54,20 @@ static cv_status halve(dg_curve *c, const dg_probe *p, const dg_node *a, const d
 static cv_status pass(dg_curve *c, const dg_probe *p, cv_message *why)
 {
     const size_t n = c->node_count;
-    cv_status status = dg_curve_reserve(c, 2 * n, why); /* so that nodes do not move below */
+    cv_status status = dg_curve_reserve(c, 3 * n, why); /* so that nodes do not move below */
     size_t cut = 0;                                     /* the interval before this node is cut already */
     for (size_t i = 1; i + 1 < n && status == CV_OK; i++) {
         const dg_node *a = &c->nodes[i - 1], *b = a + 1, *d = a + 2;
-        if (!(fmax(a->re, fmax(b->re, d->re)) > c->x_floor / 2) || !(dip_may_hide(a, b, d) || turns(a, b, d)))
+        if (!(fmax(a->re, fmax(b->re, d->re)) > c->x_floor / 2))
             continue;
-        if (cut != i)
+        double lowest = b->q;
+        if (dip_may_hide(&lowest, a, b, d)) {
+            if (fabs(lowest - b->q) > NARROW * b->q)
+                status = dg_curve_add(c, p, lowest, why);
+        } else if (!turns(a, b, d)) {
+            continue;
+        }
+        if (status == CV_OK && cut != i)
             status = halve(c, p, a, b, why);
         if (status == CV_OK)
             status = halve(c, p, b, d, why);

@@ -11,6 +11,8 @@ enum { MAX_DEPTH = 70, MAX_ALIGNED = 64, NONE = -1 };
 static const double SKIP = 3, POSITION_WEIGHT = 0.2;
 /* A dip or an unpaired crossing matters for mass ratios with 1/eta_M within this factor */
 static const double REACH = 4;
+/* Part of the range of unpaired crossings by which 1/eta_M must keep away from it */
+static const double MARGIN = 0.5;
 
 typedef struct {
     const dg_curve *left, *right;
@@ -62,23 +64,24 @@ static int align(alignment *g)
     return 1;
 }
 
-/* Whether the unpaired crossings of one curve change the balance for some 1/eta_M near x: they must cancel at
- * x and over the margin that their own spread suggests. */
+/* Whether the crossings of one curve that have no partner matter for 1/eta_M = x. Two that were born together
+ * spread over [least, most] from a common value between; one alone has gone down to the floor. x must keep
+ * away from that range by a part of its width. */
 static int unpaired_matter(const dg_curve *c, const int *partner, double x)
 {
-    int balance = 0;
-    double nearest_above = INFINITY, nearest_below = 0;
+    size_t n = 0;
+    double least = INFINITY, most = 0;
     for (size_t i = 0; i < c->crossing_count; i++) {
         if (partner[i] != NONE)
             continue;
-        if (c->crossings[i].x > x) {
-            balance += c->crossings[i].direction;
-            nearest_above = fmin(nearest_above, c->crossings[i].x);
-        } else {
-            nearest_below = fmax(nearest_below, c->crossings[i].x);
-        }
+        n++;
+        least = fmin(least, c->crossings[i].x);
+        most = fmax(most, c->crossings[i].x);
     }
-    return balance != 0 || nearest_above < 1.05 * x || nearest_below > x / 1.05;
+    if (n % 2 == 1)
+        least = c->x_floor;
+    const double margin = MARGIN * (most - least);
+    return n > 0 && x > least - margin && x < most + margin;
 }
 
 /* Whether a dip of one curve reaches zero within "distance" (signed) in alpha, by its slope, at an x that
