@@ -49,10 +49,12 @@ typedef struct {
 } cmp_effort;
 
 /* One solver tree. Every function returns CV_OK, CV_UNDECIDED (with what it has), CV_BAD_INPUT or CV_FAILED,
- * and a one-line message where it is not CV_OK. A handle serves one track and one thread at a time. */
+ * and a one-line message where it is not CV_OK. A handle serves one track at one damping, one range of
+ * velocities, and one thread at a time. */
 typedef struct {
     const char *name;
-    cv_status (*open)(void **handle, const cv_params *track, cv_message *why);
+    cv_status (*open)(void **handle, const cv_params *track, const cv_number *alpha_min,
+                      const cv_number *alpha_max, cv_message *why);
     void (*close)(void *handle);
     /* lists[0 .. mass_count-1] initialised by the caller; what cannot be decided is said in the lists, not by
      * the status returned; alpha_min <= alpha <= alpha_max; relative error of alpha and q below 10^-digits */
@@ -60,7 +62,7 @@ typedef struct {
                       const cv_number *alpha_max, size_t mass_count, const cv_number *mass_ratios, int digits,
                       cv_message *why);
     /* number of roots of 1 - eta_M zeta = 0 with Re qbar > 0, for each of the mass ratios */
-    cv_status (*count)(void *handle, int *roots, mpfr_srcptr alpha, size_t mass_count,
+    cv_status (*count)(void *handle, int *roots, double alpha, size_t mass_count,
                        const cv_number *mass_ratios, cv_message *why);
     /* zeta computed with "bits" bits; re_error, im_error absolute bounds of its parts */
     cv_status (*zeta)(void *handle, mpc_ptr zeta, mpfr_ptr re_error, mpfr_ptr im_error, mpfr_srcptr alpha,

@@ -64,7 +64,8 @@ static cv_status add_formula(cmp_printed *p, const cmp_printed_entry *e, const c
                              const cmp_printed_file *file, cv_message *why)
 {
     cmp_formula_values v;
-    cv_status status = cmp_formula(&v, e->key, run->methods[CMP_DGREEN], file, why);
+    cv_status status = cmp_formula(&v, e->key, run->methods[CMP_DGREEN], &run->file->alpha_min,
+                                   &run->file->alpha_max, file, why);
     cmp_printed_row *row = status == CV_OK ? new_row(p, e) : NULL;
     if (row == NULL)
         return status != CV_OK ? status : cv_fail(why, CV_FAILED, "too many printed values");

@@ -71,7 +71,7 @@ static cv_status integrate(double *out, transform *t, cv_message *why)
 
 /* K(0, q)/pi = 2 zeta/q^2 as q -> 0; terms of order q^2, alpha^2 and 1/kappa are below 1e-8. */
 static cv_status static_deflection(cmp_formula_values *out, const cmp_method *method, cv_params *p,
-                                   cv_message *why)
+                                   const cv_number *alpha_min, const cv_number *alpha_max, cv_message *why)
 {
     const double q = 1e-4;
     double complex zeta = 0.0;
@@ -80,7 +80,7 @@ static cv_status static_deflection(cmp_formula_values *out, const cmp_method *me
     if (status == CV_OK)
         status = cv_number_parse(&p->kappa_b, "1e9", why);
     if (status == CV_OK)
-        status = method->open(&handle, p, why);
+        status = method->open(&handle, p, alpha_min, alpha_max, why);
     if (status != CV_OK)
         return status;
     status = zeta_at(&zeta, method, handle, 1e-4, q, why);
@@ -127,13 +127,14 @@ static void first_entry(cmp_formula_values *out)
 }
 
 cv_status cmp_formula(cmp_formula_values *out, const char *key, const cmp_method *method,
-                      const cmp_printed_file *file, cv_message *why)
+                      const cv_number *alpha_min, const cv_number *alpha_max, const cmp_printed_file *file,
+                      cv_message *why)
 {
     cv_params p;
     cv_params_init(&p);
     cv_status status = cmp_printed_case(&p, file, "1", why);
     if (status == CV_OK && strcmp(key, "static") == 0)
-        status = static_deflection(out, method, &p, why);
+        status = static_deflection(out, method, &p, alpha_min, alpha_max, why);
     else if (status == CV_OK && strcmp(key, "eigenvalue") == 0)
         status = eigenvalue(out, &p, why);
     else if (status == CV_OK && strcmp(key, "L11") == 0)

@@ -16,6 +16,7 @@ typedef struct {
  * the equation is right. (13) as printed has its root at eta_M zeta = 1/4: it gives 4 eta_M zeta. L11 the
  * symbol of (17) under D_xi -> i p; derived: 4 (D1 + D2) of (8). CV_FAILED for another key. */
 cv_status cmp_formula(cmp_formula_values *out, const char *key, const cmp_method *method,
-                      const cmp_printed_file *file, cv_message *why);
+                      const cv_number *alpha_min, const cv_number *alpha_max, const cmp_printed_file *file,
+                      cv_message *why);
 
 #endif

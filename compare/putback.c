@@ -149,6 +149,7 @@ static cv_status put_back_one(cmp_verdict *v, mpfr_ptr largest, const cmp_transi
         if (done || (status != CV_OK && status != CV_UNDECIDED))
             return status;
     }
+    why->text[0] = '\0';
     cmp_verdict_worsen(v, CMP_UNDECIDED, "%s cannot evaluate z sharply enough at alpha = %.15g", method->name,
                        mpfr_get_d(t->alpha, MPFR_RNDN));
     return CV_OK;

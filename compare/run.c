@@ -108,10 +108,10 @@ void cmp_run_clear(cmp_run *run)
     run->case_count = 0;
 }
 
-/* One unit of work; mass is the method's index while finding. */
+/* One unit of work: a level, while finding by one method. */
 typedef struct {
     const cmp_case *in;
-    size_t level, item;
+    size_t level, method;
     double damping; /* the smallest of the level's three, a measure of the work */
 } unit;
 
@@ -132,7 +132,7 @@ static int costlier_first(const void *x, const void *y)
         return a->in < b->in ? -1 : 1;
     if (a->level != b->level)
         return a->level < b->level ? -1 : 1;
-    return a->item < b->item ? -1 : a->item > b->item;
+    return a->method < b->method ? -1 : a->method > b->method;
 }
 
 static double smallest_damping(const cv_params *p)
@@ -141,12 +141,12 @@ static double smallest_damping(const cv_params *p)
                 fmin(cv_number_get_double(&p->eta_b), cv_number_get_double(&p->eta_f)));
 }
 
-/* Units of every level; per level one for each method (by_mass 0) or for each mass ratio (by_mass 1). */
-static cv_status plan_init(plan *out, cmp_run *run, int by_mass, cv_message *why)
+/* Units of every level, "methods" of them each. */
+static cv_status plan_init(plan *out, cmp_run *run, size_t methods, cv_message *why)
 {
     size_t count = 0;
     for (size_t i = 0; i < run->case_count; i++)
-        count += run->cases[i].level_count * (by_mass ? run->cases[i].from->mass_count : CMP_METHODS);
+        count += run->cases[i].level_count * methods;
     out->run = run;
     out->count = 0;
     out->units = malloc(count * sizeof *out->units);
@@ -154,7 +154,7 @@ static cv_status plan_init(plan *out, cmp_run *run, int by_mass, cv_message *why
         return cv_fail(why, CV_FAILED, "out of memory");
     for (size_t i = 0; i < run->case_count; i++)
         for (size_t l = 0; l < run->cases[i].level_count; l++)
-            for (size_t k = 0; k < (by_mass ? run->cases[i].from->mass_count : CMP_METHODS); k++)
+            for (size_t k = 0; k < methods; k++)
                 out->units[out->count++] =
                     (unit){&run->cases[i], l, k, smallest_damping(&run->cases[i].levels[l].params)};
     qsort(out->units, out->count, sizeof *out->units, costlier_first);
@@ -173,17 +173,18 @@ static cv_status find_unit(void *context, size_t index, cv_message *why)
     const plan *p = context;
     const unit *u = &p->units[index];
     cmp_level *level = &u->in->levels[u->level];
-    const cmp_method *method = p->run->methods[u->item];
+    const cmp_method *method = p->run->methods[u->method];
     const double start = thread_seconds();
     void *handle;
-    cv_status status = method->open(&handle, &level->params, why);
+    cv_status status =
+        method->open(&handle, &level->params, &p->run->file->alpha_min, &p->run->file->alpha_max, why);
     if (status != CV_OK)
         return status;
-    status = method->find(handle, level->lists[u->item], &level->effort[u->item], &p->run->file->alpha_min,
-                          &p->run->file->alpha_max, u->in->from->mass_count, u->in->from->mass_ratios,
-                          p->run->file->digits, why);
+    status = method->find(handle, level->lists[u->method], &level->effort[u->method],
+                          &p->run->file->alpha_min, &p->run->file->alpha_max, u->in->from->mass_count,
+                          u->in->from->mass_ratios, p->run->file->digits, why);
     method->close(handle);
-    level->effort[u->item].cpu_seconds = thread_seconds() - start;
+    level->effort[u->method].cpu_seconds = thread_seconds() - start;
     return status;
 }
 
@@ -230,24 +231,25 @@ static cv_status judge_unit(void *context, size_t index, cv_message *why)
     const plan *p = context;
     const unit *u = &p->units[index];
     const cmp_level *level = &u->in->levels[u->level];
+    const cv_casefile *file = p->run->file;
     void *handles[CMP_METHODS];
-    cv_status status = p->run->methods[0]->open(&handles[0], &level->params, why);
-    if (status != CV_OK)
-        return status;
-    status = p->run->methods[1]->open(&handles[1], &level->params, why);
-    if (status == CV_OK) {
-        status = check_mass(p->run, level, u->in->from, u->item, handles, why);
-        p->run->methods[1]->close(handles[1]);
-    }
-    p->run->methods[0]->close(handles[0]);
+    int opened = 0;
+    cv_status status = CV_OK;
+    for (; status == CV_OK && opened < CMP_METHODS; opened += status == CV_OK)
+        status = p->run->methods[opened]->open(&handles[opened], &level->params, &file->alpha_min,
+                                               &file->alpha_max, why);
+    for (size_t m = 0; status == CV_OK && m < u->in->from->mass_count; m++)
+        status = check_mass(p->run, level, u->in->from, m, handles, why);
+    while (opened-- > 0)
+        p->run->methods[opened]->close(handles[opened]);
     return status;
 }
 
-static cv_status carry_out(cmp_run *run, int by_mass, cmp_job *job, size_t threads,
+static cv_status carry_out(cmp_run *run, size_t methods, cmp_job *job, size_t threads,
                            const cmp_listener *listener, cv_message *why)
 {
     plan p;
-    cv_status status = plan_init(&p, run, by_mass, why);
+    cv_status status = plan_init(&p, run, methods, why);
     if (status != CV_OK)
         return status;
     status = cmp_pool_run(threads, p.count, job, &p, listener, why);
@@ -257,7 +259,7 @@ static cv_status carry_out(cmp_run *run, int by_mass, cmp_job *job, size_t threa
 
 cv_status cmp_run_find(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why)
 {
-    return carry_out(run, 0, find_unit, threads, listener, why);
+    return carry_out(run, CMP_METHODS, find_unit, threads, listener, why);
 }
 
 cv_status cmp_run_judge(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why)

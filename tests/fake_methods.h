@@ -89,7 +89,7 @@ static cv_status fake_find(void *handle, cmp_list *lists, cmp_effort *effort, co
     return CV_OK;
 }
 
-static cv_status fake_count(void *handle, int *roots, mpfr_srcptr alpha, size_t mass_count,
+static cv_status fake_count(void *handle, int *roots, double alpha, size_t mass_count,
                             const cv_number *mass_ratios, cv_message *why)
 {
     const fake_faults *f = handle;
@@ -98,7 +98,7 @@ static cv_status fake_count(void *handle, int *roots, mpfr_srcptr alpha, size_t 
     for (size_t i = 0; i < mass_count; i++) {
         roots[i] = f->start;
         for (int k = 0; k < FAKE_TRANSITIONS && (f->count_all || fake_is_one(&mass_ratios[i])); k++)
-            if (f->drop_from_count != k + 1 && mpfr_cmp_d(alpha, FAKE_TRUTH[k].alpha) > 0)
+            if (f->drop_from_count != k + 1 && alpha > FAKE_TRUTH[k].alpha)
                 roots[i] += FAKE_TRUTH[k].step;
     }
     return CV_OK;
@@ -120,16 +120,18 @@ static cv_status fake_zeta(void *handle, mpc_ptr zeta, mpfr_ptr re_error, mpfr_p
     return CV_OK;
 }
 
-static cv_status fake_open_first(void **handle, const cv_params *track, cv_message *why)
+static cv_status fake_open_first(void **handle, const cv_params *track, const cv_number *low,
+                                 const cv_number *high, cv_message *why)
 {
-    (void)track;
+    (void)track, (void)low, (void)high;
     *handle = &fake[0];
     return fake[0].open == CV_OK ? CV_OK : cv_fail(why, fake[0].open, "the fake does not open");
 }
 
-static cv_status fake_open_second(void **handle, const cv_params *track, cv_message *why)
+static cv_status fake_open_second(void **handle, const cv_params *track, const cv_number *low,
+                                  const cv_number *high, cv_message *why)
 {
-    (void)track;
+    (void)track, (void)low, (void)high;
     *handle = &fake[1];
     return fake[1].open == CV_OK ? CV_OK : cv_fail(why, fake[1].open, "the fake does not open");
 }

@@ -1,0 +1,125 @@
+/* dgreen/ as compare sees it. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "compare/method.h"
+#include "dgreen/transitions.h"
+#include "dgreen/winding.h"
+#include "dgreen/z_mp.h"
+
+/* Curves are needed for Re zeta around 1/eta_M only: from this part of it on. */
+static const double FLOOR = 0.3;
+
+typedef struct {
+    cv_params params;
+    double alpha_min, alpha_max; /* for the counts */
+    dg_track *track;
+    dg_follow *follow;
+    dg_branch_curves *curves; /* made when the first count asks for them */
+    dg_curve curve;           /* its memory is used again by the next count */
+} handle;
+
+static void close_handle(void *opaque)
+{
+    handle *h = opaque;
+    dg_curve_clear(&h->curve);
+    dg_branch_curves_free(h->curves);
+    dg_follow_free(h->follow);
+    dg_track_free(h->track);
+    cv_params_clear(&h->params);
+    free(h);
+}
+
+static cv_status open_handle(void **out, const cv_params *params, const cv_number *alpha_min,
+                             const cv_number *alpha_max, cv_message *why)
+{
+    handle *h = calloc(1, sizeof *h);
+    if (h == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    cv_params_init(&h->params);
+    cv_params_set(&h->params, params);
+    h->alpha_min = cv_number_get_double(alpha_min);
+    h->alpha_max = cv_number_get_double(alpha_max);
+    cv_status status = dg_track_new(&h->track, params, why);
+    if (status == CV_OK)
+        status = dg_follow_new(&h->follow, why);
+    if (status == CV_OK)
+        *out = h;
+    else
+        close_handle(h);
+    return status;
+}
+
+static cv_status copy_list(cmp_list *to, const dg_transition_list *from, cv_message *why)
+{
+    cv_status status = CV_OK;
+    to->status = from->status;
+    to->why = from->why;
+    for (size_t i = 0; status == CV_OK && i < from->count; i++) {
+        const dg_transition *t = &from->items[i];
+        status = cmp_list_append(to, t->alpha, t->frequency, t->alpha_error, t->frequency_error,
+                                 t->count_below, t->count_above, t->decided, why);
+    }
+    return status;
+}
+
+static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, const cv_number *alpha_min,
+                      const cv_number *alpha_max, size_t mass_count, const cv_number *mass_ratios, int digits,
+                      cv_message *why)
+{
+    handle *h = opaque;
+    dg_effort cost = {0, 0, 0};
+    dg_transition_list *found = calloc(mass_count, sizeof *found);
+    if (found == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    cv_status status = dg_find_transitions(found, &cost, &h->params, alpha_min, alpha_max, mass_count,
+                                           mass_ratios, digits, why);
+    if (status == CV_UNDECIDED) {
+        for (size_t i = 0; i < mass_count; i++) {
+            lists[i].status = CV_UNDECIDED;
+            lists[i].why = *why;
+        }
+        why->text[0] = '\0';
+        status = CV_OK;
+    }
+    for (size_t i = 0; status == CV_OK && i < mass_count; i++)
+        if (lists[i].status == CV_OK)
+            status = copy_list(&lists[i], &found[i], why);
+    for (size_t i = 0; i < mass_count; i++)
+        dg_transition_list_clear(&found[i]);
+    free(found);
+    *effort = (cmp_effort){cost.evaluations, cost.above_double, (unsigned long)cost.largest_precision, 0.0};
+    return status;
+}
+
+/* The curve of zeta(i q) at one velocity serves all mass ratios. */
+static cv_status count(void *opaque, int *roots, double alpha, size_t mass_count,
+                       const cv_number *mass_ratios, cv_message *why)
+{
+    handle *h = opaque;
+    const dg_probe probe = {h->track, h->follow};
+    double smallest = HUGE_VAL;
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < mass_count; i++)
+        smallest = fmin(smallest, 1.0 / cv_number_get_double(&mass_ratios[i]));
+    if (h->curves == NULL)
+        status = dg_branch_curves_new(&h->curves, h->track, h->alpha_min, h->alpha_max, why);
+    if (status == CV_OK)
+        status = dg_curve_at(&h->curve, &probe, h->curves, alpha, FLOOR * smallest, why);
+    for (size_t i = 0; status == CV_OK && i < mass_count; i++)
+        status = dg_winding(&roots[i], &h->curve, 1.0 / cv_number_get_double(&mass_ratios[i]), why);
+    return status;
+}
+
+static cv_status zeta(void *opaque, mpc_ptr out, mpfr_ptr re_error, mpfr_ptr im_error, mpfr_srcptr alpha,
+                      mpfr_srcptr q, mpfr_prec_t bits, cv_message *why)
+{
+    handle *h = opaque;
+    cv_status status = dg_zeta_mp(out, re_error, im_error, h->track, alpha, q, bits);
+    if (status != CV_OK)
+        return cv_fail(why, status, "zeta at alpha = %.15g, q = %.15g with %ld bits",
+                       mpfr_get_d(alpha, MPFR_RNDN), mpfr_get_d(q, MPFR_RNDN), (long)bits);
+    return CV_OK;
+}
+
+const cmp_method cmp_method_dgreen = {"dgreen", open_handle, close_handle, find, count, zeta};
