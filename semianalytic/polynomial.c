@@ -107,12 +107,10 @@ void sa_polynomial_variations(int *least, int *most, const sa_polynomial *p)
         if (sign != -1) {
             reach[1] = larger(larger(before[1], before[0] + 1), 0);
         }
-        if (sign == 2) {
-            continue;
+        if (sign != 2) {
+            *least += known != 0 && sign != known;
+            known = sign;
         }
-        reach[sign < 0] = -1000;
-        *least += known != 0 && sign != known;
-        known = sign;
     }
     *most = larger(larger(reach[0], reach[1]), 0);
 }
