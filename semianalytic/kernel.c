@@ -39,6 +39,19 @@ static void times_two_pi(sa_box *x)
     sa_span_clear(&two_pi);
 }
 
+/* The upper poles alone where they are enough and the starting values tell which they are, else all. */
+static int find_poles(sa_pole_set *set, const request *r, int all)
+{
+    double complex upper[SA_STARTS_MAX];
+    int n = 0;
+    for (int i = 0; i < r->starts; i++)
+        if (cimag(r->start[i]) > 0)
+            upper[n++] = r->start[i];
+    if (!all && n == set->place.upper_count && sa_pole_set_find(set, upper, n, 0, 0))
+        return 1;
+    return sa_pole_set_find(set, r->start, r->starts, 1, all);
+}
+
 /* One precision: 1 when both values are known well enough. */
 static int evaluate(mpc_t zeta, mpc_t kernel, const request *r, mpfr_prec_t precision)
 {
@@ -52,7 +65,7 @@ static int evaluate(mpc_t zeta, mpc_t kernel, const request *r, mpfr_prec_t prec
     sa_span_init(&xi, precision);
     if (r->xi != NULL)
         sa_span_set_number(&xi, r->xi);
-    int done = sa_pole_set_find(&set, r->start, r->starts, 1, r->track->undamped || mpfr_sgn(xi.m) < 0);
+    int done = find_poles(&set, r, r->track->undamped || mpfr_sgn(xi.m) < 0);
     if (done) {
         sa_zeta_box(&value[0], &set);
         sa_kernel_box(&value[1], &set, &xi);

@@ -116,10 +116,12 @@ cv_status sa_poles_cold(double complex out[SA_POLES_MAX], int *count, const sa_t
         double complex p = top[i] / bottom[i];
         if (!isfinite(creal(p)) || !isfinite(cimag(p)) || cabs(p) > 1e15)
             continue;
+        out[*count] = p;
         iterate(&p, &m, t, alpha, q, out, *count, DEFLATED_STEPS);
         iterate(&p, &m, t, alpha, q, NULL, 0, COLD_STEPS);
         if (isfinite(creal(p)) && isfinite(cimag(p)))
-            out[(*count)++] = p;
+            out[*count] = p;
+        (*count)++;
     }
     return CV_OK;
 }
@@ -128,8 +130,8 @@ cv_status sa_poles_cold(double complex out[SA_POLES_MAX], int *count, const sa_t
 static int newton_inside(const sa_enclosure *thin, const sa_enclosure *wide)
 {
     sa_rect step = sa_rect_div(thin->det, wide->det_p);
-    return (fabs(step.re) + step.re_rad) * SA_INFLATE < wide->p.re_rad &&
-           (fabs(step.im) + step.im_rad) * SA_INFLATE < wide->p.im_rad;
+    return (fabs(step.re) + step.re_rad) * SA_INFLATE <= wide->p.re_rad &&
+           (fabs(step.im) + step.im_rad) * SA_INFLATE <= wide->p.im_rad;
 }
 
 int sa_poles_enclose(sa_pole *out, const sa_point *m, const sa_track *t, double alpha, double complex q)

@@ -86,12 +86,12 @@ static void iterate(sa_pole_set *set, int is_real)
     mpc_clear(scratch);
 }
 
-/* |Re x| and |Im x| below the radii of the box? A real pole has no imaginary part to check. */
-static int inside(const sa_box *x, const sa_box *box, int is_real)
+/* |Re x| and |Im x| within the radii of the box? A box may be flat where an equation has real coefficients.
+ */
+static int inside(const sa_box *x, const sa_box *box)
 {
-    long double re = (sa_magnitude(mpc_realref(x->m)) + x->re_rad) * SA_BOX_INFLATE;
-    long double im = (sa_magnitude(mpc_imagref(x->m)) + x->im_rad) * SA_BOX_INFLATE;
-    return re < box->re_rad && (is_real ? im == 0 : im < box->im_rad);
+    return (sa_magnitude(mpc_realref(x->m)) + x->re_rad) * SA_BOX_INFLATE <= box->re_rad &&
+           (sa_magnitude(mpc_imagref(x->m)) + x->im_rad) * SA_BOX_INFLATE <= box->im_rad;
 }
 
 /* Twice a bound of Newton's step, and no less than the last bit. */
@@ -119,7 +119,7 @@ static int enclose(sa_pole_set *set, sa_box *thin, sa_box *step, int is_real)
     for (int attempt = 0; attempt < 3; attempt++) {
         sa_box_matrix_set(m, &set->place);
         sa_box_matrix_slope(m, &set->place);
-        if (sa_box_div(step, thin, &m->det_p) && inside(step, &m->p, is_real))
+        if (sa_box_div(step, thin, &m->det_p) && inside(step, &m->p))
             return 1;
         m->p.re_rad *= 4;
         m->p.im_rad *= 4;
@@ -134,8 +134,8 @@ static int half_plane(const sa_box *p)
     return certain ? mpfr_sgn(mpc_imagref(p->m)) : 0;
 }
 
-/* The zero of d3 next to start as the next pole of the set. */
-static int find(sa_pole_set *set, double complex start)
+/* The zero of d3 next to start as the next pole of the set; 0 when no box is certain. */
+static int find_near(sa_pole_set *set, double complex start)
 {
     sa_box_pole *pole = &set->poles[set->count];
     sa_box_matrix *m = &set->matrix;
@@ -165,12 +165,25 @@ static int is_new(const sa_pole_set *set)
     return 1;
 }
 
+/* Newton's iteration cannot leave the real axis of an undamped track, nor the middle between two poles: then
+ * it starts again from the side. */
+static int find(sa_pole_set *set, double complex start)
+{
+    const double complex turns[] = {1, CMPLX(1, 0.25), CMPLX(1, -0.25)};
+    if (start == 0)
+        start = 0x1p-100;
+    for (size_t i = 0; i < sizeof turns / sizeof turns[0]; i++)
+        if (find_near(set, start * turns[i]) && is_new(set))
+            return 1;
+    return 0;
+}
+
 int sa_pole_set_find(sa_pole_set *set, const double complex *start, int n, int skip, int all)
 {
     int upper = 0;
     set->count = 0;
     for (int i = 0; i < n && set->count < SA_POLES_MAX; i++) {
-        if (!find(set, start[i]) || !is_new(set)) {
+        if (!find(set, start[i])) {
             if (!skip)
                 return 0;
             continue;
