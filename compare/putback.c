@@ -122,6 +122,13 @@ static void judge_residual(cmp_verdict *v, workspace *w, const cmp_transition *t
             cmp_log10(w->allowance));
 }
 
+static void keep_worst(cmp_residual *worst, workspace *w)
+{
+    mpfr_max(worst->residual, worst->residual, w->residual, MPFR_RNDU);
+    mpfr_div(w->scratch, w->residual, w->allowance, MPFR_RNDU);
+    worst->used = fmax(worst->used, mpfr_get_d(w->scratch, MPFR_RNDU));
+}
+
 /* The evaluation's bound is far below what the claimed bounds allow (or both are NaN, which then fails). */
 static int sharp(workspace *w)
 {
@@ -129,9 +136,9 @@ static int sharp(workspace *w)
     return !mpfr_greater_p(w->scratch, w->allowance);
 }
 
-static cv_status put_back_one(cmp_verdict *v, mpfr_ptr largest, const cmp_transition *t, const char *claimant,
-                              const cmp_method *method, void *handle, const cv_number *mass_ratio,
-                              cv_message *why)
+static cv_status put_back_one(cmp_verdict *v, cmp_residual *worst, const cmp_transition *t,
+                              const char *claimant, const cmp_method *method, void *handle,
+                              const cv_number *mass_ratio, cv_message *why)
 {
     mpfr_prec_t bits = bits_for(t->alpha, t->alpha_error);
     if (bits_for(t->q, t->q_error) > bits)
@@ -143,7 +150,7 @@ static cv_status put_back_one(cmp_verdict *v, mpfr_ptr largest, const cmp_transi
         const int done = status == CV_OK && sharp(&w);
         if (done) {
             judge_residual(v, &w, t, claimant, method);
-            mpfr_max(largest, largest, w.residual, MPFR_RNDU);
+            keep_worst(worst, &w);
         }
         workspace_clear(&w);
         if (done || (status != CV_OK && status != CV_UNDECIDED))
@@ -155,14 +162,13 @@ static cv_status put_back_one(cmp_verdict *v, mpfr_ptr largest, const cmp_transi
     return CV_OK;
 }
 
-cv_status cmp_put_back(cmp_verdict *v, mpfr_ptr largest, const cmp_list *list, const char *claimant,
+cv_status cmp_put_back(cmp_verdict *v, cmp_residual *worst, const cmp_list *list, const char *claimant,
                        const cmp_method *method, void *handle, const cv_number *mass_ratio, cv_message *why)
 {
     for (size_t i = 0; i < list->count; i++) {
         if (!measurable(&list->items[i]))
             continue;
-        cv_status status =
-            put_back_one(v, largest, &list->items[i], claimant, method, handle, mass_ratio, why);
+        cv_status status = put_back_one(v, worst, &list->items[i], claimant, method, handle, mass_ratio, why);
         if (status != CV_OK)
             return status;
     }

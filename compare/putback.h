@@ -4,6 +4,11 @@
 
 #include "compare/judge.h"
 
+typedef struct {
+    mpfr_t residual; /* |eta_M zeta - 1|; 0: nothing was put back */
+    double used;     /* the largest ratio of a residual to what was allowed; at most 1 where all are kept */
+} cmp_residual;
+
 /* For each transition of the list: |eta_M zeta(alpha, q) - 1|, zeta by "method" with at least 15 digits more
  * than the bounds claim, must not exceed 9/8 (|eta_M dzeta/dalpha| alpha_error + |eta_M dzeta/dq| q_error) +
  * bound of the evaluation, the derivatives being differences over the bounds themselves (9/8 covers the
@@ -11,7 +16,7 @@
  * Otherwise v becomes CMP_DISAGREE, "claimant" being the name of the method that made the list. CMP_UNDECIDED
  * where the evaluation's own bound is too wide to tell. *largest becomes the largest residual if that is
  * larger. Non-finite transitions are left to cmp_judge. handle: of method, for the track of the list. */
-cv_status cmp_put_back(cmp_verdict *v, mpfr_ptr largest, const cmp_list *list, const char *claimant,
+cv_status cmp_put_back(cmp_verdict *v, cmp_residual *worst, const cmp_list *list, const char *claimant,
                        const cmp_method *method, void *handle, const cv_number *mass_ratio, cv_message *why);
 
 #endif

@@ -119,15 +119,16 @@ static cv_status print_table(FILE *out, const cmp_case *c, cv_message *why)
     return status;
 }
 
-/* Why not: one line for each combination that has something to say. */
+/* Why not: one line for each combination that has something to say beyond "none, 0" in its row. */
 static void print_reasons(FILE *out, const cmp_case *c)
 {
     char damping[CELL_SIZE];
     cmp_number_text mass;
     for (size_t l = 0; l < c->level_count; l++)
         for (size_t m = 0; m < c->from->mass_count; m++) {
-            const cmp_verdict *v = &c->levels[l].results[m].verdict;
-            if (v->reason.text[0] != '\0')
+            const cmp_result *r = &c->levels[l].results[m];
+            const cmp_verdict *v = &r->verdict;
+            if (v->reason.text[0] != '\0' && (v->kind != CMP_AGREE || r->counts.start > 0))
                 fprintf(out, "  %s, damping %s, eta_M %s: %s\n", cmp_kind_name(v->kind),
                         format_damping(damping, &c->levels[l].params),
                         cmp_format_exact(&mass, &c->from->mass_ratios[m], PARAMETER_DIGITS), v->reason.text);
@@ -198,8 +199,8 @@ static void print_summary(FILE *out, const cmp_run *run)
             s.of_kind[CMP_DISAGREE], s.of_kind[CMP_UNDECIDED]);
     if (isfinite(s.fewest_digits))
         fprintf(out, "; at least %s digits", cmp_format_digits(&text, s.fewest_digits));
-    if (isfinite(s.largest_residual))
-        fprintf(out, "; largest |z - 1| 1e%.0f", ceil(s.largest_residual));
+    if (s.used > 0.0)
+        fprintf(out, "; put back, |z - 1| is at most %.2g of what the bounds allow", s.used);
     fputs(")\n", out);
 }
 

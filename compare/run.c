@@ -5,8 +5,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "compare/putback.h"
-
 static cv_status level_init(cmp_level *level, size_t mass_count, cv_message *why)
 {
     cv_params_init(&level->params);
@@ -26,8 +24,9 @@ static cv_status level_init(cmp_level *level, size_t mass_count, cv_message *why
         cmp_list_init(&level->lists[1][i]);
         cmp_verdict_init(&level->results[i].verdict);
         level->results[i].counts = (cmp_counts){-1, 0};
-        mpfr_init2(level->results[i].residual, 53);
-        mpfr_set_zero(level->results[i].residual, 1);
+        mpfr_init2(level->results[i].worst.residual, 53);
+        mpfr_set_zero(level->results[i].worst.residual, 1);
+        level->results[i].worst.used = 0.0;
     }
     return CV_OK;
 }
@@ -37,7 +36,7 @@ static void level_clear(cmp_level *level, size_t mass_count)
     for (size_t i = 0; i < mass_count; i++) {
         cmp_list_clear(&level->lists[0][i]);
         cmp_list_clear(&level->lists[1][i]);
-        mpfr_clear(level->results[i].residual);
+        mpfr_clear(level->results[i].worst.residual);
     }
     free(level->lists[0]);
     free(level->lists[1]);
@@ -216,7 +215,7 @@ static cv_status check_mass(const cmp_run *run, const cmp_level *level, const cv
     cmp_judge(&result->verdict, lists, &pairing, names, run->file->digits);
     for (int claimant = 0; status == CV_OK && claimant < CMP_METHODS; claimant++)
         for (int m = 0; status == CV_OK && m < CMP_METHODS; m++)
-            status = cmp_put_back(&result->verdict, result->residual, lists[claimant], names[claimant],
+            status = cmp_put_back(&result->verdict, &result->worst, lists[claimant], names[claimant],
                                   run->methods[m], handles[m], eta_M, why);
     if (status == CV_OK)
         status = cmp_check_counts(&result->verdict, &result->counts, lists, &pairing, run->methods, handles,
@@ -275,12 +274,12 @@ static void add_result(cmp_summary *s, const cmp_result *r)
         s->worst = r->verdict.kind;
     if (r->verdict.kind == CMP_AGREE)
         s->fewest_digits = fmin(s->fewest_digits, r->verdict.digits);
-    s->largest_residual = fmax(s->largest_residual, cmp_log10(r->residual));
+    s->used = fmax(s->used, r->worst.used);
 }
 
 void cmp_run_summary(cmp_summary *out, const cmp_run *run)
 {
-    *out = (cmp_summary){0, {0, 0, 0}, HUGE_VAL, -HUGE_VAL, CMP_AGREE};
+    *out = (cmp_summary){0, {0, 0, 0}, HUGE_VAL, 0.0, CMP_AGREE};
     for (size_t i = 0; i < run->case_count; i++)
         for (size_t l = 0; l < run->cases[i].level_count; l++)
             for (size_t m = 0; m < run->cases[i].from->mass_count; m++)

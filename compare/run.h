@@ -6,12 +6,13 @@
 #include "compare/countcheck.h"
 #include "compare/judge.h"
 #include "compare/pool.h"
+#include "compare/putback.h"
 
 /* What was found about one mass ratio. */
 typedef struct {
     cmp_verdict verdict;
     cmp_counts counts;
-    mpfr_t residual; /* largest |eta_M zeta - 1| of any transition put back into either zeta; 0: none was */
+    cmp_residual worst; /* of any transition put back into either zeta */
 } cmp_result;
 
 /* One damping level of a case; arrays by mass ratio, in the order of the case. */
@@ -50,7 +51,7 @@ cv_status cmp_run_judge(cmp_run *run, size_t threads, const cmp_listener *listen
 typedef struct {
     size_t total, of_kind[3]; /* by cmp_kind */
     double fewest_digits;     /* among the agreeing; infinite if there are none */
-    double largest_residual;  /* log10; -infinity if nothing was put back */
+    double used;              /* largest part of the allowed residual */
     cmp_kind worst;
 } cmp_summary;
 

@@ -60,7 +60,7 @@ START_TEST(faultless_methods_agree)
     ck_assert_double_eq_tol(r->verdict.digits, 23.1, 0.1); /* 1e-24 at q = 0.125 */
     ck_assert_int_eq(r->counts.start, 0);
     ck_assert_uint_eq(r->counts.samples, FAKE_TRANSITIONS + 3); /* both ends, between, outside */
-    ck_assert(mpfr_zero_p(r->residual));
+    ck_assert(mpfr_zero_p(r->worst.residual));
     cmp_summary s;
     cmp_run_summary(&s, &run);
     ck_assert_uint_eq(s.total, 8); /* 2 cases, 2 dampings, 2 mass ratios */
@@ -125,7 +125,8 @@ START_TEST(a_value_off_by_less_than_its_bound_is_kept)
     fake[0].by = 2e-24; /* 0.75e-24 off */
     const cmp_result *r = outcome();
     ck_assert_msg(r->verdict.kind == CMP_AGREE, "%s", r->verdict.reason.text);
-    ck_assert_double_eq_tol(mpfr_get_d(r->residual, MPFR_RNDN), 0.75e-24, 1e-27);
+    ck_assert_double_eq_tol(mpfr_get_d(r->worst.residual, MPFR_RNDN), 0.75e-24, 1e-27);
+    ck_assert_double_eq_tol(r->worst.used, 0.75 / 2.25, 1e-3); /* 9/8 (1e-24 + 1e-24) allowed */
 }
 END_TEST
 
