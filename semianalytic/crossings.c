@@ -1,0 +1,160 @@
+#include "semianalytic/crossings.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "semianalytic/map_cell.h"
+
+/* First intervals: natural logarithms of the distance to the curve. */
+static const double largest_interval = 2, tolerance = 0.2;
+
+typedef struct {
+    const sa_map_node *node;
+    sa_field *field;
+    double re_low;
+    sa_crossings *out;
+    int strip, side;
+} scan;
+
+static cv_status sample(sa_sample *s, const scan *sc, double t)
+{
+    return sa_field_at_node(s, sc->field, sc->node, sc->strip, sc->side, t, 1);
+}
+
+/* The function keeps its sign between a and b: the tests of map_cell.h in one dimension. */
+static int one_signed(const double f[3], const double slope[3])
+{
+    const double steepest = 6;
+    double log_f[3], g[3];
+    for (int i = 0; i < 3; ++i) {
+        if (!(f[i] * f[0] > 0))
+            return 0;
+        log_f[i] = log(fabs(f[i]));
+        g[i] = slope[i] / f[i];
+        if (!(fabs(g[i]) < steepest))
+            return 0;
+    }
+    double middle = (log_f[0] + log_f[2]) / 2 + (g[0] - g[2]) / 8;
+    double slope_middle = 1.5 * (log_f[2] - log_f[0]) - (g[0] + g[2]) / 4;
+    return fabs(log_f[1] - middle) < tolerance && fabs(g[1] - slope_middle) < 2 * tolerance;
+}
+
+static int steady(const double f[3])
+{
+    double low = fmin(fabs(f[0]), fmin(fabs(f[1]), fabs(f[2])));
+    double high = fmax(fabs(f[0]), fmax(fabs(f[1]), fabs(f[2])));
+    return f[0] * f[1] > 0 && f[1] * f[2] > 0 && high < 8 * low && fabs(log(f[1] * f[1] / (f[0] * f[2]))) < 1;
+}
+
+static cv_status append(sa_crossings *list, sa_crossing item)
+{
+    if (list->count == list->room) {
+        size_t room = 2 * list->room + 8;
+        sa_crossing *more = realloc(list->items, room * sizeof *more);
+        if (more == NULL)
+            return CV_FAILED;
+        list->items = more;
+        list->room = room;
+    }
+    list->items[list->count++] = item;
+    return CV_OK;
+}
+
+/* Im zeta is monotone from a to b and changes its sign. */
+static cv_status crossing(const scan *sc, const sa_sample *a, const sa_sample *b)
+{
+    double low = a->t, high = b->t, t = low + (high - low) * a->im / (a->im - b->im), step = 0;
+    sa_sample s = *a;
+    for (int i = 0; i < 60; ++i) {
+        cv_status status = sa_field_at_node(&s, sc->field, sc->node, sc->strip, sc->side, t, 0);
+        if (status != CV_OK)
+            return status;
+        if (s.im * a->im > 0)
+            low = t;
+        else
+            high = t;
+        step = -s.im / s.im_t;
+        if (fabs(step) < 1e-9 * (b->t - a->t) || fabs(s.im) <= 2 * s.im_error)
+            break;
+        t = t + step > low && t + step < high ? t + step : (low + high) / 2;
+    }
+    double moved = fmin(fabs(step), high - low) + fabs(s.im_error / s.im_t);
+    int falls_with_t = a->im > 0, t_grows_with_q = sc->side == 0;
+    return append(sc->out, (sa_crossing){.q = s.q,
+                                         .re = s.re,
+                                         .re_error = s.re_error + fabs(s.re_t) * moved,
+                                         .direction = falls_with_t == t_grows_with_q ? 1 : -1});
+}
+
+static cv_status scan_interval(const scan *sc, const sa_sample *a, const sa_sample *b)
+{
+    const double smallest = 1e-12;
+    double h = b->t - a->t;
+    sa_sample m;
+    cv_status status = sample(&m, sc, a->t + h / 2);
+    if (status != CV_OK)
+        return status;
+    const double im[3] = {a->im, m.im, b->im}, im_t[3] = {a->im_t * h, m.im_t * h, b->im_t * h};
+    const double re[3] = {a->re - sc->re_low, m.re - sc->re_low, b->re - sc->re_low};
+    const double re_t[3] = {a->re_t * h, m.re_t * h, b->re_t * h};
+    if (one_signed(im, im_t) || (re[0] < 0 && one_signed(re, re_t)))
+        return CV_OK;
+    if (steady(im_t))
+        return (a->im > 0) == (b->im > 0) ? CV_OK : crossing(sc, a, b);
+    if (h < smallest)
+        return CV_UNDECIDED;
+    status = scan_interval(sc, a, &m);
+    return status == CV_OK ? scan_interval(sc, &m, b) : status;
+}
+
+static cv_status scan_side(const scan *sc)
+{
+    int n = 1 + (int)(sa_map_strip_extent(sc->node, sc->strip, sc->side) / largest_interval);
+    sa_sample a, b;
+    sa_field_block(sc->field, 0, 0, sc->strip, sc->side);
+    cv_status status = sample(&a, sc, 0);
+    for (int i = 1; status == CV_OK && i <= n; ++i) {
+        status = sample(&b, sc, i == n ? 1 : (double)i / n);
+        if (status == CV_OK)
+            status = scan_interval(sc, &a, &b);
+        a = b;
+    }
+    return status;
+}
+
+cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
+                            double re_low, cv_message *why)
+{
+    sa_map_node node;
+    *out = (sa_crossings){0};
+    cv_status status = sa_map_node_of(&node, map, alpha);
+    for (int strip = 0; status == CV_OK && strip < node.count - 1; ++strip)
+        for (int side = 0; side < sa_map_strip_sides(&node, strip) && status == CV_OK; ++side) {
+            scan sc = {&node, field, re_low, out, strip, side};
+            status = scan_side(&sc);
+        }
+    if (status == CV_OK)
+        return CV_OK;
+    sa_crossings_clear(out);
+    return cv_fail(why, status, "crossings of the real axis at alpha = %.15g cannot be told apart", alpha);
+}
+
+void sa_crossings_clear(sa_crossings *list)
+{
+    free(list->items);
+    *list = (sa_crossings){0};
+}
+
+cv_status sa_crossings_count(int *roots, const sa_crossings *list, double level)
+{
+    int sum = 0;
+    for (size_t i = 0; i < list->count; ++i) {
+        const sa_crossing *c = &list->items[i];
+        if (!(fabs(c->re - level) > 2 * c->re_error))
+            return CV_UNDECIDED;
+        if (c->re > level)
+            sum += 2 * c->direction;
+    }
+    *roots = sum;
+    return CV_OK;
+}

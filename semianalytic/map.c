@@ -1,0 +1,134 @@
+#include "semianalytic/map.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Slopes of curves that run into the shear velocity are infinite there; nothing depends on their value. */
+static const double slope_limit = 1e9;
+
+double sa_map_column_extent(const sa_column *column, int side)
+{
+    double half = (column->alpha_high - column->alpha_low) / 2;
+    return log1p(half / (side ? column->length_high : column->length_low));
+}
+
+static void place_velocity(sa_map_node *node, const sa_column *c, int side, double u)
+{
+    double length = side ? c->length_high : c->length_low, extent = sa_map_column_extent(c, side);
+    double distance = u == 1 ? (c->alpha_high - c->alpha_low) / 2 : length * expm1(u * extent);
+    node->alpha = side ? c->alpha_high - distance : c->alpha_low + distance;
+    node->alpha_u = (side ? -1 : 1) * length * exp(u * extent) * extent;
+}
+
+static cv_status place_arc(sa_map_node *node, int i, const sa_branch_curves *curves,
+                           const sa_map_curve *curve)
+{
+    const sa_branch_arc *arc = &curves->arc[curve->arc];
+    sa_wave wave;
+    long double q, alpha = node->alpha;
+    alpha = fminl(fmaxl(alpha, arc->alpha_low), arc->alpha_high);
+    if (sa_branch_arc_at(&wave, &q, curves, (size_t)curve->arc, alpha) != CV_OK)
+        return CV_FAILED;
+    double slope = (double)(q < 0 ? wave.p : -wave.p) * arc->direction;
+    node->q[i] = (double)fabsl(q);
+    node->slope[i] = fmin(fmax(slope, -slope_limit), slope_limit);
+    node->length[i] = curve->length;
+    node->length_slope[i] = 0;
+    return CV_OK;
+}
+
+static void place_ghost(sa_map_node *node, int i, const sa_ghost *ghost, const sa_map_curve *curve)
+{
+    double beyond = node->alpha - ghost->alpha, q = ghost->q + ghost->slope * beyond;
+    double off = 0.3 * ghost->width * pow(fabs(beyond), 1.5);
+    node->q[i] = fabs(q);
+    node->slope[i] = q < 0 ? -ghost->slope : ghost->slope;
+    node->length[i] = curve->length + off;
+    node->length_slope[i] = beyond == 0 ? 0 : 1.5 * off / beyond;
+}
+
+static cv_status place_curves(sa_map_node *node, const sa_map *map, const sa_column *c)
+{
+    const double bottom = 1e-7; /* zeta ~ q^2: nothing but a power law below */
+    node->count = c->count + 2;
+    node->q[0] = node->slope[0] = node->length_slope[0] = 0;
+    node->length[0] = bottom;
+    for (int i = 0; i < c->count; ++i) {
+        const sa_map_curve *curve = &c->curve[i];
+        if (curve->arc < 0)
+            place_ghost(node, i + 1, &map->ghost[-1 - curve->arc], curve);
+        else if (place_arc(node, i + 1, &map->curves, curve) != CV_OK)
+            return CV_FAILED;
+        node->q[i + 1] = fmax(node->q[i + 1], node->q[i]); /* rounding where curves meet */
+    }
+    node->q[c->count + 1] = fmax(c->q_top, node->q[c->count]);
+    node->slope[c->count + 1] = node->length_slope[c->count + 1] = 0;
+    node->length[c->count + 1] = 1;
+    return CV_OK;
+}
+
+cv_status sa_map_node_at(sa_map_node *out, const sa_map *map, size_t column, int side, double u)
+{
+    const sa_column *c = &map->column[column];
+    place_velocity(out, c, side, u);
+    return place_curves(out, map, c);
+}
+
+cv_status sa_map_node_of(sa_map_node *out, const sa_map *map, double alpha)
+{
+    size_t low = 0, high = map->count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (alpha < map->column[middle].alpha_low)
+            high = middle;
+        else
+            low = middle;
+    }
+    const sa_column *c = &map->column[low];
+    out->alpha = fmin(fmax(alpha, c->alpha_low), c->alpha_high);
+    out->alpha_u = 1;
+    return place_curves(out, map, c);
+}
+
+int sa_map_strip_sides(const sa_map_node *node, int strip)
+{
+    return strip == node->count - 2 ? 1 : 2;
+}
+
+/* Width of one side of a strip and d width / d alpha. */
+static double side_width(double *slope, const sa_map_node *node, int strip)
+{
+    int sides = sa_map_strip_sides(node, strip);
+    *slope = (node->slope[strip + 1] - node->slope[strip]) / sides;
+    return (node->q[strip + 1] - node->q[strip]) / sides;
+}
+
+double sa_map_strip_extent(const sa_map_node *node, int strip, int side)
+{
+    double slope, width = side_width(&slope, node, strip);
+    return log1p(width / node->length[strip + side]);
+}
+
+void sa_map_point_at(sa_map_point *out, const sa_map_node *node, int strip, int side, double t)
+{
+    int curve = strip + side;
+    double sign = side ? -1 : 1, length = node->length[curve], grown = node->length_slope[curve];
+    double slope, width = side_width(&slope, node, strip);
+    double ratio = width / length, extent = log1p(ratio);
+    double extent_slope = (slope - ratio * grown) / (length + width);
+    double power = exp(t * extent), distance = t == 1 ? width : length * expm1(t * extent);
+    out->alpha = node->alpha;
+    out->alpha_u = node->alpha_u;
+    out->q = node->q[curve] + sign * distance;
+    out->q_t = sign * length * power * extent;
+    double along = grown * expm1(t * extent) + length * power * t * extent_slope;
+    out->q_u = (node->slope[curve] + sign * along) * node->alpha_u;
+}
+
+void sa_map_clear(sa_map *map)
+{
+    sa_branch_curves_clear(&map->curves);
+    free(map->ghost);
+    free(map->column);
+    *map = (sa_map){0};
+}

@@ -1,0 +1,90 @@
+#include "semianalytic/map_build.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+cv_status sa_map_cuts_add(sa_map_cuts *cuts, double alpha, int graded)
+{
+    if (cuts->count == cuts->room) {
+        size_t room = 2 * cuts->room + 16;
+        sa_map_cut *more = realloc(cuts->cut, room * sizeof *more);
+        if (more == NULL)
+            return CV_FAILED;
+        cuts->cut = more;
+        cuts->room = room;
+    }
+    cuts->cut[cuts->count++] = (sa_map_cut){alpha, graded};
+    return CV_OK;
+}
+
+static int by_alpha(const void *left, const void *right)
+{
+    const sa_map_cut *a = left, *b = right;
+    return (a->alpha > b->alpha) - (a->alpha < b->alpha);
+}
+
+void sa_map_cuts_sort(sa_map_cuts *cuts)
+{
+    size_t kept = 0;
+    qsort(cuts->cut, cuts->count, sizeof *cuts->cut, by_alpha);
+    for (size_t i = 0; i < cuts->count; ++i) {
+        sa_map_cut *last = kept > 0 ? &cuts->cut[kept - 1] : NULL;
+        if (last != NULL && cuts->cut[i].alpha - last->alpha < 4e-16 * cuts->cut[i].alpha)
+            last->graded |= cuts->cut[i].graded;
+        else
+            cuts->cut[kept++] = cuts->cut[i];
+    }
+    cuts->count = kept;
+}
+
+static cv_status collect_cuts(sa_map_cuts *cuts, sa_map *map)
+{
+    const sa_branch_curves *curves = &map->curves;
+    if (sa_map_cuts_add(cuts, curves->alpha_min, 0) != CV_OK ||
+        sa_map_cuts_add(cuts, curves->alpha_max, 0) != CV_OK)
+        return CV_FAILED;
+    for (size_t i = 0; i < curves->special_count; ++i)
+        if (sa_map_cuts_add(cuts, curves->special[i].alpha, 1) != CV_OK)
+            return CV_FAILED;
+    if (sa_map_ghosts(map, cuts) != CV_OK)
+        return CV_FAILED;
+    sa_map_cuts_sort(cuts);
+    return CV_OK;
+}
+
+static cv_status make_columns(sa_map *map, const sa_map_cuts *cuts)
+{
+    map->column = calloc(cuts->count, sizeof *map->column);
+    if (map->column == NULL)
+        return CV_FAILED;
+    for (size_t i = 0; i + 1 < cuts->count; ++i) {
+        sa_column *c = &map->column[map->count++];
+        c->alpha_low = cuts->cut[i].alpha;
+        c->alpha_high = cuts->cut[i + 1].alpha;
+        if (sa_map_column_fill(c, map, cuts->cut[i].graded, cuts->cut[i + 1].graded) != CV_OK)
+            return CV_FAILED;
+    }
+    return CV_OK;
+}
+
+cv_status sa_map_build(sa_map *out, const cv_params *params, double alpha_min, double alpha_max,
+                       cv_message *why)
+{
+    sa_map_cuts cuts = {0};
+    *out = (sa_map){0};
+    cv_status status = sa_branch_curves_build(&out->curves, params, alpha_min, alpha_max, why);
+    if (status != CV_OK)
+        return status;
+    out->eta_p = cv_number_get_double(&params->eta_p);
+    out->eta_b = cv_number_get_double(&params->eta_b);
+    out->eta_f = cv_number_get_double(&params->eta_f);
+    status = collect_cuts(&cuts, out);
+    if (status == CV_OK)
+        status = make_columns(out, &cuts);
+    free(cuts.cut);
+    if (status != CV_OK) {
+        sa_map_clear(out);
+        return cv_fail(why, status, "the branch curves of the track could not be arranged in columns");
+    }
+    return CV_OK;
+}

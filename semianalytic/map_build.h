@@ -1,0 +1,35 @@
+/* Parts of sa_map_build. */
+#ifndef CRITVEL_SEMIANALYTIC_MAP_BUILD_H
+#define CRITVEL_SEMIANALYTIC_MAP_BUILD_H
+
+#include "semianalytic/map.h"
+
+/* A velocity at which a column ends; graded: zeta is not smooth there. */
+typedef struct {
+    double alpha;
+    int graded;
+} sa_map_cut;
+
+typedef struct {
+    size_t count, room;
+    sa_map_cut *cut;
+} sa_map_cuts;
+
+cv_status sa_map_cuts_add(sa_map_cuts *cuts, double alpha, int graded);
+void sa_map_cuts_sort(sa_map_cuts *cuts); /* ascending, equal ones joined */
+
+/* Fills map->ghost from map->curves and adds where they end and what they meet. */
+cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts);
+
+/* Signed q of a ghost at alpha. */
+double sa_map_ghost_q(const sa_ghost *ghost, double alpha);
+
+/* Rate at which the wave of a curve decays at given damping, to first order:
+ * (eta_p (W-V)^2 + eta_b (V-U)^2 + eta_f U^2) / (W^2 + mu_s V^2 + mu_b U^2). */
+double sa_map_damping(const sa_map *map, const sa_wave *wave);
+
+/* Fills the curves and grading lengths of a column whose ends are set. CV_FAILED: too many curves, or a wave
+ * cannot be computed. */
+cv_status sa_map_column_fill(sa_column *column, const sa_map *map, int graded_low, int graded_high);
+
+#endif

@@ -1,0 +1,104 @@
+#include "semianalytic/map_build.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { GHOST_STEPS = 64 };
+
+double sa_map_ghost_q(const sa_ghost *ghost, double alpha)
+{
+    return ghost->q + ghost->slope * (alpha - ghost->alpha);
+}
+
+/* q(p) = q_c - x d + omega''' x^3 / 6 with x = p - p_c, d = alpha - alpha_c: the points with dq/dp = 0 are
+ * real on one side of the cusp, and imaginary with (2/3) sqrt(2 / |omega'''|) |d|^(3/2) on the other. */
+static cv_status make_ghost(sa_ghost *ghost, const sa_branch_curves *curves, size_t arc, int at_high)
+{
+    const sa_branch_arc *a = &curves->arc[arc];
+    sa_wave wave;
+    double alpha = (double)(at_high ? a->alpha_high : a->alpha_low);
+    if (sa_dispersion_wave(&wave, &curves->grid.track, a->k, at_high ? a->p_high : a->p_low, 0) != CV_OK)
+        return CV_FAILED;
+    double reach = 0.05 * alpha;
+    ghost->alpha = alpha;
+    ghost->q = (double)(wave.omega - (long double)a->direction * alpha * wave.p);
+    ghost->slope = (double)(-a->direction * wave.p);
+    ghost->width = 2.0 / 3 * sqrt(2 / fabs((double)wave.d[3]));
+    ghost->end = at_high ? fmin(alpha + reach, curves->alpha_max) : fmax(alpha - reach, curves->alpha_min);
+    return CV_OK;
+}
+
+/* Each cusp is the upper or lower end in alpha of two arcs; the first of them makes the ghost. */
+static int ends_in_cusp(const sa_branch_curves *curves, size_t arc, int at_high)
+{
+    const sa_branch_arc *a = &curves->arc[arc];
+    long double p = at_high ? a->p_high : a->p_low, alpha = at_high ? a->alpha_high : a->alpha_low;
+    if (!(alpha > curves->alpha_min && alpha < curves->alpha_max) || !isfinite(p) || p == 0)
+        return 0;
+    for (size_t i = 0; i < arc; ++i) {
+        const sa_branch_arc *b = &curves->arc[i];
+        long double other = at_high ? b->p_high : b->p_low;
+        if (b->k == a->k && b->direction == a->direction && fabsl(other - p) < 1e-6L * p)
+            return 0;
+    }
+    return 1;
+}
+
+/* |q| of the ghost minus that of an arc; 0 where there is no arc. */
+static double gap(const sa_ghost *ghost, const sa_branch_curves *curves, int arc, double alpha)
+{
+    double q = fabs(sa_map_ghost_q(ghost, alpha));
+    sa_wave wave;
+    long double other;
+    if (arc < 0)
+        return sa_map_ghost_q(ghost, alpha);
+    const sa_branch_arc *a = &curves->arc[arc];
+    if (!(alpha >= a->alpha_low && alpha <= a->alpha_high) ||
+        sa_branch_arc_at(&wave, &other, curves, (size_t)arc, alpha) != CV_OK)
+        return 0;
+    return q - (double)fabsl(other);
+}
+
+/* Velocities where the ghost meets an arc, or q = 0 for arc = -1. */
+static cv_status meetings(sa_map_cuts *cuts, const sa_ghost *ghost, const sa_branch_curves *curves, int arc)
+{
+    double previous = ghost->alpha, before = 0;
+    for (int i = 1; i <= GHOST_STEPS; ++i) {
+        double alpha = ghost->alpha + (ghost->end - ghost->alpha) * exp2((i - GHOST_STEPS) * 0.5);
+        double here = gap(ghost, curves, arc, alpha), low = previous, high = alpha;
+        if (here * before < 0) {
+            while (fabs(high - low) > 4e-16 * high && (low + high) / 2 != low && (low + high) / 2 != high) {
+                double middle = (low + high) / 2;
+                if (gap(ghost, curves, arc, middle) * before > 0)
+                    low = middle;
+                else
+                    high = middle;
+            }
+            if (sa_map_cuts_add(cuts, high, 1) != CV_OK)
+                return CV_FAILED;
+        }
+        previous = alpha;
+        before = here;
+    }
+    return CV_OK;
+}
+
+cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts)
+{
+    const sa_branch_curves *curves = &map->curves;
+    map->ghost = calloc(2 * curves->arc_count + 1, sizeof *map->ghost);
+    if (map->ghost == NULL)
+        return CV_FAILED;
+    for (size_t i = 0; i < 2 * curves->arc_count; ++i) {
+        if (!ends_in_cusp(curves, i / 2, i % 2 == 1))
+            continue;
+        sa_ghost *ghost = &map->ghost[map->ghost_count++];
+        if (make_ghost(ghost, curves, i / 2, i % 2 == 1) != CV_OK ||
+            sa_map_cuts_add(cuts, ghost->end, 0) != CV_OK)
+            return CV_FAILED;
+        for (int arc = -1; arc < (int)curves->arc_count; ++arc)
+            if (meetings(cuts, ghost, curves, arc) != CV_OK)
+                return CV_FAILED;
+    }
+    return CV_OK;
+}

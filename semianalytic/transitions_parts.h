@@ -1,0 +1,54 @@
+/* Parts of transitions.h. */
+#ifndef CRITVEL_SEMIANALYTIC_TRANSITIONS_PARTS_H
+#define CRITVEL_SEMIANALYTIC_TRANSITIONS_PARTS_H
+
+#include "semianalytic/map_search.h"
+#include "semianalytic/transitions.h"
+
+/* A transition in double precision. */
+typedef struct {
+    size_t level;
+    double alpha, q;
+    double jacobian[2][2]; /* d (Re zeta, Im zeta) / d (alpha, q) */
+} sa_candidate;
+
+typedef struct {
+    size_t count, room;
+    sa_candidate *items;
+} sa_candidates;
+
+/* The levels 1 / eta_M, and what is found on them. */
+typedef struct {
+    size_t count;
+    const double *level;
+    sa_candidates found;
+    char *doubtful;      /* per level: 1 when a line touches it too closely to say */
+    double *doubtful_at; /* the velocity where it does */
+} sa_levels;
+
+/* Appends every point of the segment at one of the levels. */
+cv_status sa_levels_on_segment(sa_levels *levels, sa_field *field, const sa_segment *segment);
+
+/* Newton in (alpha, q) from a candidate, with growing precision, until both have the digits. item is
+ * initialised here; item->decided is CV_UNDECIDED when they are not reached. */
+cv_status sa_transition_refine(sa_transition *item, sa_sweep *sweep, const sa_track *track,
+                               const sa_candidate *from, const cv_number *mass_ratio, int digits);
+
+/* A list from the candidates on one level, in any order: refined, those found twice joined, ascending, with
+ * numbers of roots relative to roots_at_start, which the caller has set. */
+cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const sa_track *track,
+                                  const sa_candidates *found, size_t level, const cv_number *mass_ratio,
+                                  int digits);
+
+/* Compares N between neighbouring transitions with the crossings there; list->decided becomes CV_UNDECIDED
+ * where they differ or cannot be counted. */
+cv_status sa_transitions_verify(sa_transitions *list, const sa_map *map, sa_field *field, double level);
+
+/* The list is undecided for this reason, unless it is already. */
+void sa_transitions_doubt(sa_transitions *list, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Change of N as alpha grows past a transition: + or -2. */
+int sa_transition_step(const sa_candidate *c);
+
+#endif

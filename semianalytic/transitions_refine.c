@@ -1,0 +1,144 @@
+#include <math.h>
+
+#include "semianalytic/transitions_parts.h"
+
+/* Newton's iteration at one precision, x = (alpha, q), f = (Re zeta - 1 / eta_M, Im zeta). The Jacobian stays
+ * that of the candidate: it is right to 1e-6 or better, which each step gains in digits. */
+typedef struct {
+    mpfr_t x[2], f[2], f_error[2], step[2], bound[2], level, scratch;
+    mpc_t zeta;
+    double inverse[2][2];
+} newton;
+
+static void newton_init(newton *n, const sa_candidate *from, const cv_number *mass_ratio, mpfr_prec_t bits)
+{
+    const double(*j)[2] = from->jacobian;
+    double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    n->inverse[0][0] = j[1][1] / det;
+    n->inverse[0][1] = -j[0][1] / det;
+    n->inverse[1][0] = -j[1][0] / det;
+    n->inverse[1][1] = j[0][0] / det;
+    for (int i = 0; i < 2; ++i)
+        mpfr_inits2(bits, n->x[i], n->f[i], n->f_error[i], n->step[i], n->bound[i], (mpfr_ptr)0);
+    mpfr_inits2(bits, n->level, n->scratch, (mpfr_ptr)0);
+    mpc_init2(n->zeta, bits);
+    mpfr_set_d(n->x[0], from->alpha, MPFR_RNDN);
+    mpfr_set_d(n->x[1], from->q, MPFR_RNDN);
+    cv_number_get_mpfr(n->level, mass_ratio);
+    mpfr_ui_div(n->level, 1, n->level, MPFR_RNDN);
+}
+
+static void newton_clear(newton *n)
+{
+    for (int i = 0; i < 2; ++i)
+        mpfr_clears(n->x[i], n->f[i], n->f_error[i], n->step[i], n->bound[i], (mpfr_ptr)0);
+    mpfr_clears(n->level, n->scratch, (mpfr_ptr)0);
+    mpc_clear(n->zeta);
+}
+
+/* step = inverse * f; bound = 2 |inverse| (|f| + f_error): the distance to the solution, with room for an
+ * inverse that is wrong by less than a half over that distance. */
+static void newton_step(newton *n)
+{
+    for (int i = 0; i < 2; ++i) {
+        mpfr_set_zero(n->step[i], 1);
+        mpfr_set_zero(n->bound[i], 1);
+        for (int k = 0; k < 2; ++k) {
+            mpfr_mul_d(n->scratch, n->f[k], n->inverse[i][k], MPFR_RNDN);
+            mpfr_add(n->step[i], n->step[i], n->scratch, MPFR_RNDN);
+            mpfr_abs(n->scratch, n->f[k], MPFR_RNDU);
+            mpfr_add(n->scratch, n->scratch, n->f_error[k], MPFR_RNDU);
+            mpfr_mul_d(n->scratch, n->scratch, 2 * fabs(n->inverse[i][k]), MPFR_RNDU);
+            mpfr_add(n->bound[i], n->bound[i], n->scratch, MPFR_RNDU);
+        }
+    }
+}
+
+static cv_status newton_evaluate(newton *n, sa_sweep *sweep, const sa_track *track)
+{
+    cv_status status = sa_zeta_mp(n->zeta, n->f_error[0], n->f_error[1], sweep, track, n->x[0], n->x[1]);
+    if (status != CV_OK)
+        return status;
+    /* the level is rounded once and subtracted with one more rounding: both below this */
+    mpfr_set(n->scratch, n->level, MPFR_RNDU);
+    mpfr_div_2si(n->scratch, n->scratch, mpfr_get_prec(n->level) - 2, MPFR_RNDU);
+    mpfr_add(n->f_error[0], n->f_error[0], n->scratch, MPFR_RNDU);
+    mpfr_sub(n->f[0], mpc_realref(n->zeta), n->level, MPFR_RNDN);
+    mpfr_set(n->f[1], mpc_imagref(n->zeta), MPFR_RNDN);
+    newton_step(n);
+    return CV_OK;
+}
+
+/* bound[i] < 10^-digits |x[i]| for both */
+static int precise(newton *n, int digits)
+{
+    for (int i = 0; i < 2; ++i) {
+        mpfr_ui_pow_ui(n->scratch, 10, (unsigned long)digits, MPFR_RNDU);
+        mpfr_mul(n->scratch, n->bound[i], n->scratch, MPFR_RNDU);
+        if (!(mpfr_cmpabs(n->scratch, n->x[i]) < 0))
+            return 0;
+    }
+    return 1;
+}
+
+/* CV_UNDECIDED: no convergence at this precision. */
+static cv_status iterate(newton *n, sa_sweep *sweep, const sa_track *track, int digits)
+{
+    const double slowest = 0.1;
+    mpfr_t last, size;
+    cv_status status = CV_OK;
+    int converging = 1, done = 0;
+    mpfr_inits2(53, last, size, (mpfr_ptr)0);
+    mpfr_set_inf(last, 1);
+    while (status == CV_OK && converging && !done) {
+        status = newton_evaluate(n, sweep, track);
+        if (status != CV_OK)
+            break;
+        done = precise(n, digits);
+        mpfr_hypot(size, n->step[0], n->step[1], MPFR_RNDU);
+        mpfr_mul_d(last, last, slowest, MPFR_RNDD);
+        converging = mpfr_cmp(size, last) < 0;
+        mpfr_set(last, size, MPFR_RNDU);
+        for (int i = 0; i < 2 && !done && converging; ++i)
+            mpfr_sub(n->x[i], n->x[i], n->step[i], MPFR_RNDN);
+    }
+    mpfr_clears(last, size, (mpfr_ptr)0);
+    return status == CV_OK && !done ? CV_UNDECIDED : status;
+}
+
+static void report(sa_transition *item, const newton *n, cv_status decided)
+{
+    mpfr_set_prec(item->alpha, mpfr_get_prec(n->x[0]));
+    mpfr_set_prec(item->q, mpfr_get_prec(n->x[1]));
+    mpfr_set(item->alpha, n->x[0], MPFR_RNDN);
+    mpfr_set(item->q, n->x[1], MPFR_RNDN);
+    item->alpha_error = mpfr_get_d(n->bound[0], MPFR_RNDU);
+    item->q_error = mpfr_get_d(n->bound[1], MPFR_RNDU);
+    item->decided = decided;
+}
+
+cv_status sa_transition_refine(sa_transition *item, sa_sweep *sweep, const sa_track *track,
+                               const sa_candidate *from, const cv_number *mass_ratio, int digits)
+{
+    const mpfr_prec_t guard = 60, largest = SA_PRECISION_MAX + 4 * (mpfr_prec_t)digits;
+    cv_status status = CV_UNDECIDED;
+    mpfr_init2(item->alpha, 53);
+    mpfr_init2(item->q, 53);
+    for (mpfr_prec_t bits = digits * 10L / 3 + guard; status == CV_UNDECIDED && bits < largest;
+         bits += bits / 2) {
+        newton n;
+        newton_init(&n, from, mass_ratio, bits);
+        status = iterate(&n, sweep, track, digits);
+        report(item, &n, status);
+        newton_clear(&n);
+    }
+    return status == CV_UNDECIDED ? CV_OK : status;
+}
+
+int sa_transition_step(const sa_candidate *c)
+{
+    const double(*j)[2] = c->jacobian;
+    /* along the line Im zeta = 0, d Re zeta / d alpha = det / (d Im zeta / dq): where it is positive a
+     * crossing enters the count, which is +2 where Im zeta falls with q and -2 where it grows */
+    return j[0][0] * j[1][1] - j[0][1] * j[1][0] > 0 ? -2 : 2;
+}
