@@ -144,7 +144,7 @@ static void iterate(dg_mp_roots *roots, const dg_mp_operator *op)
 {
     const int p = (int)roots->precision, near = roots->count - roots->far;
     const double small = ldexp(1, -1 - (int)fmax(p / 3 + 1, (p - 48) / 2)), far_small = ldexp(1, -p / 2 - 2);
-    for (int sweep = 0; sweep < DG_MP_MAX_SWEEPS; sweep++) {
+    for (int sweep = 0; sweep < 40 + p / 2; sweep++) {
         int settled = 1;
         for (int i = 0; i < near; i++)
             if (!(update(roots, op, i) < small))

@@ -21,12 +21,11 @@ typedef struct {
 void dg_mp_roots_init(dg_mp_roots *roots, mpfr_prec_t precision);
 void dg_mp_roots_clear(dg_mp_roots *roots);
 
-/* Starts from the double values, which may be poor, and iterates until the precision is used up, or for
- * DG_MP_MAX_SWEEPS. on_axis: coefficients are real (no damping, imaginary qbar); then approximations whose
+/* Starts from the double values, which may be poor, and iterates until the precision is used up or
+ * must be in vain. on_axis: coefficients are real (no damping, imaginary qbar); then approximations whose
  * imaginary part is mere rounding are put on the real axis.
  * CV_OK: disjoint discs, one exact root in each, on the axis for an approximation that is. CV_UNDECIDED:
  * discs meet. CV_FAILED: start has another number of roots than op. */
-enum { DG_MP_MAX_SWEEPS = 60 };
 cv_status dg_mp_roots_find(dg_mp_roots *roots, const dg_mp_operator *op, const dg_roots *start, int on_axis);
 
 /* v + s y etc. by raw mpfr: value = value * y + c, all of the roots' precision. */

@@ -7,7 +7,7 @@
 static const mpfr_rnd_t RND = MPFR_RNDN;
 static const mpc_rnd_t CRND = MPC_RNDNN;
 
-enum { EXTRA_BITS = 8192, FIRST_BITS = 127 };
+enum { EXTRA_BITS = 4096, FIRST_BITS = 127 };
 
 /* Roots in double to start from: polished where double can. */
 static cv_status find_start(dg_roots *start, const dg_track *track, mpfr_srcptr alpha, mpc_srcptr qbar)

@@ -14,7 +14,7 @@
  *
  * Without damping and with sigma = 0 it is the limit qbar -> i q + 0; there a part can be exactly zero (no
  * real root: no radiation; no other root: Re zeta), and it is returned as exact 0. At q = 0 zeta is real, and
- * 0 for sigma = 0. CV_UNDECIDED: the largest precision (8192 bits beyond the digits) could not separate two
+ * 0 for sigma = 0. CV_UNDECIDED: the largest precision (4096 bits beyond the digits) could not separate two
  * roots or decide their half-planes: an undamped track at a branch point, where zeta is infinite, or numbers
  * beyond the range of a double. CV_BAD_INPUT: alpha < 0, sigma < 0. */
 cv_status dg_zeta_digits(mpc_ptr zeta, const dg_track *track, const cv_number *alpha, const cv_number *sigma,
