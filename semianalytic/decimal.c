@@ -4,21 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 0.d1d2... * 10^exponent in plain notation, at the end of text */
+/* 0.d1d2... * 10^exponent in plain notation, at the end of text; exponent is not above the number of digits
+ */
 static void plain(char *text, const char *digits, long exponent)
 {
-    long n = (long)strlen(digits), zeros = exponent > 0 ? 0 : -exponent;
     if (exponent <= 0) {
         strcat(text, "0.");
-        memset(text + strlen(text), '0', (size_t)zeros); /* text was all NUL */
+        memset(text + strlen(text), '0', (size_t)-exponent); /* text was all NUL */
         strcat(text, digits);
-    } else if (exponent < n) {
-        strncat(text, digits, (size_t)exponent);
-        strcat(text, ".");
-        strcat(text, digits + exponent);
     } else {
-        strcat(text, digits);
-        memset(text + strlen(text), '0', (size_t)(exponent - n));
+        strncat(text, digits, (size_t)exponent);
+        if (digits[exponent] != '\0')
+            strcat(text, ".");
+        strcat(text, digits + exponent);
     }
 }
 
@@ -41,7 +39,7 @@ char *sa_decimal_text(const mpfr_t x, int digits)
         int negative = raw[0] == '-';
         if (negative)
             text[0] = '-';
-        if (exponent > -5 && exponent <= 20)
+        if (exponent > -5 && exponent <= 20 && exponent <= digits)
             plain(text, raw + negative, exponent);
         else
             scientific(text, raw + negative, exponent);
