@@ -47,9 +47,32 @@ static void place_ghost(sa_map_node *node, int i, const sa_ghost *ghost, const s
     node->length_slope[i] = beyond == 0 ? 0 : 1.5 * off / beyond;
 }
 
+/* A curve is graded as finely as any other that it meets: its length becomes the harmonic sum of (length +
+ * distance) over all curves. */
+static void blend_lengths(sa_map_node *node)
+{
+    double length[SA_MAP_CURVES_MAX + 2], slope[SA_MAP_CURVES_MAX + 2];
+    int last = node->count - 2;
+    for (int i = 1; i <= last; ++i) {
+        double sum = 0, sum_slope = 0;
+        for (int j = 1; j <= last; ++j) {
+            int sign = j > i ? 1 : -1;
+            double reach = node->length[j] + sign * (node->q[j] - node->q[i]);
+            sum += 1 / reach;
+            sum_slope += (node->length_slope[j] + sign * (node->slope[j] - node->slope[i])) / (reach * reach);
+        }
+        length[i] = 1 / sum;
+        slope[i] = sum_slope / (sum * sum);
+    }
+    for (int i = 1; i <= last; ++i) {
+        node->length[i] = length[i];
+        node->length_slope[i] = slope[i];
+    }
+}
+
 static cv_status place_curves(sa_map_node *node, const sa_map *map, const sa_column *c)
 {
-    const double bottom = 1e-7; /* zeta ~ q^2: nothing but a power law below */
+    const double bottom = 1e-5; /* zeta ~ q^2: nothing but a power law below */
     node->count = c->count + 2;
     node->q[0] = node->slope[0] = node->length_slope[0] = 0;
     node->length[0] = bottom;
@@ -64,6 +87,7 @@ static cv_status place_curves(sa_map_node *node, const sa_map *map, const sa_col
     node->q[c->count + 1] = fmax(c->q_top, node->q[c->count]);
     node->slope[c->count + 1] = node->length_slope[c->count + 1] = 0;
     node->length[c->count + 1] = 1;
+    blend_lengths(node);
     return CV_OK;
 }
 
