@@ -44,6 +44,25 @@ const dg_special_velocity *dg_special_velocities(size_t *count, const dg_branch_
     return b->specials;
 }
 
+double dg_special_distance(const dg_branch_curves *b, double alpha)
+{
+    double distance = alpha;
+    for (size_t i = 0; i < b->special_count; i++)
+        distance = fmin(distance, fabs(alpha - b->specials[i].alpha));
+    return distance;
+}
+
+int dg_branch_point_on(dg_branch_point *point, const dg_branch_curves *b, int curve, double alpha)
+{
+    if (curve < 0 || (size_t)curve >= b->family_count)
+        return 0;
+    const dg_family *f = &b->families[curve];
+    if (!(alpha >= f->alpha_low && alpha <= f->alpha_high))
+        return 0;
+    dg_family_point(point, b, (size_t)curve, alpha);
+    return 1;
+}
+
 /* Before a pair is born its two branch points are complex: q = q_c +- i |Im q| with, from the cubic expansion
  * of omega at the cusp, |Im q| = (2/3) sqrt(2 |alpha - alpha_c|^3 / |omega'''|). Next to a peak of the
  * curvature two branches nearly cross, and zeta varies over the inverse of the curvature. */
@@ -70,8 +89,7 @@ size_t dg_branch_points_at(dg_branch_point *points, const dg_branch_curves *b, d
 {
     size_t n = 0;
     for (size_t i = 0; i < b->family_count; i++)
-        if (alpha >= b->families[i].alpha_low && alpha <= b->families[i].alpha_high)
-            dg_family_point(&points[n++], b, i, alpha);
+        n += (size_t)dg_branch_point_on(&points[n], b, (int)i, alpha);
     for (size_t i = 0; i < b->bend_count; i++)
         n = add_soft(points, n, &b->bends[i], b->family_count + i, alpha);
     qsort(points, n, sizeof *points, ascending);

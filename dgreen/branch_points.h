@@ -50,7 +50,13 @@ size_t dg_branch_points_max(const dg_branch_curves *b);
  * dg_branch_points_max. */
 size_t dg_branch_points_at(dg_branch_point *points, const dg_branch_curves *b, double alpha);
 
+/* The point of one curve (dg_branch_point.curve, not soft) at another alpha. Returns 0 where that curve has
+ * none. */
+int dg_branch_point_on(dg_branch_point *point, const dg_branch_curves *b, int curve, double alpha);
+
 /* Ascending, inside (alpha_min, alpha_max). Owned by b. */
 const dg_special_velocity *dg_special_velocities(size_t *count, const dg_branch_curves *b);
+/* Distance from alpha to the nearest of them, at most alpha itself. */
+double dg_special_distance(const dg_branch_curves *b, double alpha);
 
 #endif

@@ -8,7 +8,7 @@
 
 /* Nodes per decade of the distance from a branch point, and the first distance in units of its width */
 enum { PER_DECADE = 4 };
-static const double FIRST = 0.03, FIRST_SOFT = 0.3;
+static const double FIRST = 0.4, FIRST_SOFT = 0.4;
 /* Relative spacing of doubles with some room */
 static const double SPACING = 1e-15;
 
@@ -32,7 +32,7 @@ cv_status dg_curve_add(dg_curve *c, const dg_probe *p, double q, cv_message *why
         return status;
     /* At a zero of Im zeta no precision certifies the sign: move off by a few spacings. */
     for (int i = 0; i < 3; i++) {
-        status = dg_probe_at(&c->nodes[c->node_count], p, c->alpha, q);
+        status = dg_probe_at(&c->nodes[c->node_count], p, c->at.alpha, q);
         if (status != CV_UNDECIDED)
             break;
         q *= 1 + 8 * SPACING;
@@ -40,7 +40,7 @@ cv_status dg_curve_add(dg_curve *c, const dg_probe *p, double q, cv_message *why
     if (status == CV_OK)
         c->node_count++;
     else
-        cv_fail(why, status, "sign of Im zeta not certified at alpha = %.17g, q = %.17g", c->alpha, q);
+        cv_fail(why, status, "sign of Im zeta not certified at alpha = %.17g, q = %.17g", c->at.alpha, q);
     return status;
 }
 
@@ -81,8 +81,8 @@ static cv_status lay_nodes(dg_curve *c, const dg_probe *p, double q_first, doubl
 {
     double left = 0, left_first = q_first;
     cv_status status = CV_OK;
-    for (size_t i = 0; i < c->point_count && status == CV_OK; i++) {
-        const dg_branch_point *point = &c->points[i];
+    for (size_t i = 0; i < c->at.count && status == CV_OK; i++) {
+        const dg_branch_point *point = &c->at.points[i];
         if (point->q <= 2 * q_first)
             continue;
         const double reach = (point->q - left) / 2, first = first_distance(point);
@@ -105,27 +105,22 @@ static cv_status check_ends(const dg_curve *c, cv_message *why)
 {
     const dg_node *first = &c->nodes[0], *last = &c->nodes[c->node_count - 1];
     if (!(fabs(first->re) < c->x_floor / 2))
-        return cv_fail(why, CV_UNDECIDED, "zeta not small at q = %g, alpha = %.17g", first->q, c->alpha);
+        return cv_fail(why, CV_UNDECIDED, "zeta not small at q = %g, alpha = %.17g", first->q, c->at.alpha);
     if (!(last->re < 0 && last->im < 0))
         return cv_fail(why, CV_UNDECIDED, "zeta not that of the bare rail at q = %g", last->q);
     return CV_OK;
 }
 
-cv_status dg_curve_at(dg_curve *c, const dg_probe *p, const dg_branch_curves *b, double alpha, double x_floor,
-                      cv_message *why)
+cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why)
 {
-    if (c->points == NULL) {
-        c->points = malloc((dg_branch_points_max(b) + 1) * sizeof *c->points);
-        if (c->points == NULL)
-            return cv_fail(why, CV_FAILED, "out of memory");
-    }
-    c->alpha = alpha;
+    cv_status status = dg_station_set(&c->at, p->branches, alpha, why);
+    if (status != CV_OK)
+        return status;
     c->x_floor = x_floor;
     c->node_count = c->crossing_count = c->dip_count = 0;
-    c->point_count = dg_branch_points_at(c->points, b, alpha);
-    const double top = c->point_count ? c->points[c->point_count - 1].q : 0;
-    const double q_first = 1e-6, q_last = 100 * (1 + alpha * alpha) + 20 * top;
-    cv_status status = lay_nodes(c, p, q_first, q_last, why);
+    const double top = c->at.count ? c->at.points[c->at.count - 1].q : 0;
+    const double q_first = 1e-6, q_last = 20 * (1 + alpha * alpha) + 5 * top;
+    status = lay_nodes(c, p, q_first, q_last, why);
     if (status != CV_OK)
         return status;
     dg_curve_sort(c);
@@ -140,6 +135,6 @@ void dg_curve_clear(dg_curve *c)
     free(c->nodes);
     free(c->crossings);
     free(c->dips);
-    free(c->points);
+    dg_station_clear(&c->at);
     memset(c, 0, sizeof *c);
 }

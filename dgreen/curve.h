@@ -21,11 +21,11 @@ typedef struct {
 /* A place where |Im zeta| has a small minimum above zero: two crossings may be born there. */
 typedef struct {
     double q, re, im;
-    double d_im; /* d Im zeta/d alpha */
+    double d_im; /* d Im zeta/d alpha of the minimum */
 } dg_dip;
 
 typedef struct {
-    double alpha;
+    dg_station at;
     double x_floor; /* crossings and dips with smaller Re zeta are not listed */
     size_t node_count, node_room;
     dg_node
@@ -34,8 +34,6 @@ typedef struct {
     dg_crossing *crossings; /* ascending in q, all with x >= x_floor */
     size_t dip_count, dip_room;
     dg_dip *dips;
-    size_t point_count;
-    dg_branch_point *points; /* branch points at alpha, ascending in q */
 } dg_curve;
 
 /* Method: nodes at logarithmic distances from q = 0 and, on both sides, from every branch point, down to a
@@ -45,23 +43,11 @@ typedef struct {
  * Not found: two zeros of Im zeta between consecutive nodes between which |Im zeta| shows no minimum.
  * x_floor > 0. *c must be zero or a former curve, whose memory is used again.
  * CV_UNDECIDED: a sign could not be certified, or one of the ends could not be reached. */
-cv_status dg_curve_at(dg_curve *c, const dg_probe *p, const dg_branch_curves *b, double alpha, double x_floor,
-                      cv_message *why);
+cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why);
 void dg_curve_clear(dg_curve *c);
 
-/* Number of branch points at its velocity, without the soft ones */
-size_t dg_curve_hard_points(const dg_curve *c);
-
-/* For the curve's own files and for those who follow crossings from one velocity to the next. */
-double dg_curve_position(const dg_branch_point *points, size_t count, double q);
-/* Distance from q to the nearest branch point or to 0, at least its width; *wave: largest |p| of the branch
- * points that are about as near. */
-double dg_curve_scale(double *wave, const dg_branch_point *points, size_t count, double q);
-/* Between a and b, half way in the logarithm of the distance to the nearest branch point. */
-double dg_curve_middle(const dg_branch_point *points, size_t count, double a, double b);
-
 /* Narrows [a, b], where Im zeta changes sign, and fills the crossing, its slopes included. */
-cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_branch_point *points, size_t count,
-                         double alpha, const dg_node *a, const dg_node *b);
+cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at, const dg_node *a,
+                         const dg_node *b);
 
 #endif

@@ -46,7 +46,7 @@ static cv_status halve(dg_curve *c, const dg_probe *p, const dg_node *a, const d
 {
     if (b->q - a->q <= NARROW * b->q)
         return CV_OK;
-    const double q = dg_curve_middle(c->points, c->point_count, a->q, b->q);
+    const double q = dg_station_middle(&c->at, a->q, b->q);
     return q > a->q && q < b->q ? dg_curve_add(c, p, q, why) : CV_OK;
 }
 
@@ -114,10 +114,8 @@ static cv_status push_dip(dg_curve *c, const dg_probe *p, const dg_node *n, cv_m
         c->dips = grown;
         c->dip_room = room;
     }
-    double wave;
-    const double scale = dg_curve_scale(&wave, c->points, c->point_count, n->q);
     dg_slopes s;
-    const cv_status status = dg_probe_slopes(&s, p, c->alpha, n->q, scale, wave);
+    const cv_status status = dg_probe_slopes(&s, p, &c->at, n->q);
     c->dips[c->dip_count++] = (dg_dip){n->q, n->re, n->im, s.im_alpha};
     return status;
 }
@@ -126,9 +124,9 @@ static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_mess
 {
     dg_crossing x;
     const dg_node a = c->nodes[i], b = c->nodes[i + 1];
-    cv_status status = dg_curve_cross(&x, p, c->points, c->point_count, c->alpha, &a, &b);
+    cv_status status = dg_curve_cross(&x, p, &c->at, &a, &b);
     if (status != CV_OK)
-        return cv_fail(why, status, "crossing at alpha = %.17g, q = %.17g not resolved", c->alpha, x.q);
+        return cv_fail(why, status, "crossing at alpha = %.17g, q = %.17g not resolved", c->at.alpha, x.q);
     if (x.x < c->x_floor)
         return CV_OK;
     status = push_crossing(c, &x, why);

@@ -94,25 +94,26 @@ static cv_status set_masses(dg_sweep *s, size_t mass_count, const cv_number *mas
     return CV_OK;
 }
 
-static void sweep_clear(dg_sweep *s, dg_track *track)
+static void sweep_clear(dg_sweep *s, dg_branch_curves *branches, dg_track *track)
 {
     for (size_t k = 0; k < s->mass_count; k++)
         free(s->masses[k].finds);
     free(s->masses);
-    dg_branch_curves_free(s->curves);
+    dg_branch_curves_free(branches);
     dg_follow_free(s->probe.follow);
     dg_track_free(track);
 }
 
-static cv_status search(dg_sweep *s, dg_track **track, const cv_params *params, double alpha_min,
-                        double alpha_max)
+static cv_status search(dg_sweep *s, dg_track **track, dg_branch_curves **branches, const cv_params *params,
+                        double alpha_min, double alpha_max)
 {
     cv_status status = dg_track_new(track, params, s->why);
     s->probe.track = *track;
     if (status == CV_OK)
         status = dg_follow_new(&s->probe.follow, s->why);
     if (status == CV_OK)
-        status = dg_branch_curves_new(&s->curves, *track, alpha_min, alpha_max, s->why);
+        status = dg_branch_curves_new(branches, *track, alpha_min, alpha_max, s->why);
+    s->probe.branches = *branches;
     return status == CV_OK ? dg_sweep_run(s, alpha_min, alpha_max) : status;
 }
 
@@ -123,13 +124,15 @@ cv_status dg_find_transitions(dg_transition_list *lists, dg_effort *effort, cons
     dg_effort unused, *used = effort ? effort : &unused;
     dg_sweep s = {.why = why};
     dg_track *track = NULL;
+    dg_branch_curves *branches = NULL;
     memset(lists, 0, mass_count * sizeof *lists);
     *used = (dg_effort){0};
     if (cv_params_undamped(params))
         return cv_fail(why, CV_BAD_INPUT, "transitions need damping: all damping ratios are zero");
     cv_status status = set_masses(&s, mass_count, mass_ratios);
     if (status == CV_OK)
-        status = search(&s, &track, params, cv_number_get_double(alpha_min), cv_number_get_double(alpha_max));
+        status = search(&s, &track, &branches, params, cv_number_get_double(alpha_min),
+                        cv_number_get_double(alpha_max));
     if (status == CV_OK) {
         const dg_counters c = dg_follow_counters(s.probe.follow);
         *used = (dg_effort){c.evaluations, c.above_double, c.largest_precision};
@@ -139,6 +142,6 @@ cv_status dg_find_transitions(dg_transition_list *lists, dg_effort *effort, cons
     if (status != CV_OK)
         for (size_t k = 0; k < mass_count; k++)
             dg_transition_list_clear(&lists[k]);
-    sweep_clear(&s, track);
+    sweep_clear(&s, branches, track);
     return status;
 }

@@ -22,59 +22,43 @@ typedef struct {
     dg_sweep *sweep;
     size_t count;
     sample samples[MAX_SAMPLES];
-    dg_branch_point *points;
-    int points_alike; /* the same branch points at both ends, so that positions compare */
-    double x;         /* of the mass ratio that is hunted */
+    dg_station station; /* of the crossing that was looked for last */
+    int points_alike;   /* the same branch points at both ends, so that positions compare */
+    double x;           /* of the mass ratio that is hunted */
     size_t mass;
 } branch;
 
-/* q of a position between those of low and high; positions grow with q */
-static double q_of_position(const branch *b, size_t points, double position, double low, double high)
-{
-    while (dg_curve_position(b->points, points, low) > position)
-        low /= 2;
-    while (dg_curve_position(b->points, points, high) < position)
-        high *= 2;
-    for (int i = 0; i < 200 && high - low > DBL_EPSILON * high; i++) {
-        const double middle = low + (high - low) / 2;
-        *(dg_curve_position(b->points, points, middle) < position ? &low : &high) = middle;
-    }
-    return low + (high - low) / 2;
-}
-
 /* Where a crossing between samples l and r is expected: q for the position plus "step". */
-static double expected(const branch *b, size_t points, const sample *l, const sample *r, double alpha,
-                       double step)
+static double expected(const branch *b, const sample *l, const sample *r, double step)
 {
-    const double part = (alpha - l->alpha) / (r->alpha - l->alpha);
-    const double low = fmin(l->at.q, r->at.q) / 2, high = fmax(l->at.q, r->at.q) * 2;
+    const double part = (b->station.alpha - l->alpha) / (r->alpha - l->alpha);
     if (b->points_alike)
-        return q_of_position(b, points, l->at.position + part * (r->at.position - l->at.position) + step, low,
-                             high);
+        return dg_station_frequency(&b->station,
+                                    l->at.position + part * (r->at.position - l->at.position) + step);
     return exp(log(l->at.q) + part * log(r->at.q / l->at.q) + step);
 }
 
 /* The crossing at alpha between the samples l and r: from the expected place in the direction where its sign
  * change must be, with growing steps. */
-static cv_status follow(sample *m, const branch *b, const sample *l, const sample *r)
+static cv_status follow(sample *m, branch *b, const sample *l, const sample *r)
 {
     const dg_probe *p = &b->sweep->probe;
-    const size_t points = dg_branch_points_at(b->points, b->sweep->curves, m->alpha);
     dg_node here, next;
-    cv_status status = dg_probe_at(&here, p, m->alpha, expected(b, points, l, r, m->alpha, 0));
+    cv_status status = dg_station_set(&b->station, p->branches, m->alpha, b->sweep->why);
+    if (status == CV_OK)
+        status = dg_probe_at(&here, p, m->alpha, expected(b, l, r, 0));
     if (status != CV_OK)
         return status;
     const int up = (here.im > 0) == (l->at.direction > 0); /* the crossing lies above */
     for (double step = FIRST_STEP; step < LAST_STEP; step *= 2, here = next) {
-        const double q = expected(b, points, l, r, m->alpha, up ? step : -step);
-        if (q == here.q)
-            continue;
-        status = dg_probe_at(&next, p, m->alpha, q);
+        const double q = expected(b, l, r, up ? step : -step);
+        next = here;
+        if (q != here.q)
+            status = dg_probe_at(&next, p, m->alpha, q);
         if (status != CV_OK)
             return status;
         if ((next.im > 0) != (here.im > 0))
-            return dg_curve_cross(&m->at, p, b->points, points, m->alpha, up ? &here : &next,
-                                  up ? &next : &here);
+            return dg_curve_cross(&m->at, p, &b->station, up ? &here : &next, up ? &next : &here);
     }
     return CV_UNDECIDED;
 }
@@ -106,7 +90,7 @@ static cv_status sample_until(branch *b, const sample *r)
 }
 
 /* The crossing at any alpha between the first and the last sample */
-static cv_status crossing_at(sample *m, const branch *b)
+static cv_status crossing_at(sample *m, branch *b)
 {
     size_t i = 1;
     while (i + 1 < b->count && b->samples[i].alpha < m->alpha)
@@ -117,7 +101,7 @@ static cv_status crossing_at(sample *m, const branch *b)
 /* x(alpha) - 1/eta_M for the hunt */
 static cv_status excess(dg_sample *s, void *context)
 {
-    const branch *b = context;
+    branch *b = context;
     sample m = {.alpha = s->at};
     const cv_status status = crossing_at(&m, b);
     s->value = m.at.x - b->x;
@@ -159,25 +143,20 @@ cv_status dg_branch_scan(dg_sweep *s, const dg_curve *left, const dg_crossing *a
 {
     if (fmin(a->x, b->x) > 10 * s->x_roof)
         return CV_OK;
-    branch *br = malloc(sizeof *br);
+    branch *br = calloc(1, sizeof *br);
     if (br == NULL)
         return cv_fail(s->why, CV_FAILED, "out of memory");
-    br->points = malloc((dg_branch_points_max(s->curves) + 1) * sizeof *br->points);
-    if (br->points == NULL) {
-        free(br);
-        return cv_fail(s->why, CV_FAILED, "out of memory");
-    }
     br->sweep = s;
     br->count = 1;
-    br->samples[0] = (sample){left->alpha, *a};
-    br->points_alike = dg_curve_hard_points(left) == dg_curve_hard_points(right);
-    const sample last = {right->alpha, *b};
+    br->samples[0] = (sample){left->at.alpha, *a};
+    br->points_alike = left->at.hard_count == right->at.hard_count;
+    const sample last = {right->at.alpha, *b};
     cv_status status = sample_until(br, &last);
     for (br->mass = 0; br->mass < s->mass_count && status == CV_OK; br->mass++) {
         br->x = s->masses[br->mass].x;
         status = hunt_mass(br);
     }
-    free(br->points);
+    dg_station_clear(&br->station);
     free(br);
     return status;
 }

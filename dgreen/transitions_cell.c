@@ -34,7 +34,7 @@ static int align(alignment *g)
     double cost[MAX_ALIGNED + 1][MAX_ALIGNED + 1];
     if (n > MAX_ALIGNED || m > MAX_ALIGNED)
         return 0;
-    const int positions = dg_curve_hard_points(g->left) == dg_curve_hard_points(g->right);
+    const int positions = g->left->at.hard_count == g->right->at.hard_count;
     for (size_t i = 0; i <= n; i++)
         for (size_t j = 0; j <= m; j++) {
             double best = i == 0 && j == 0 ? 0 : INFINITY;
@@ -108,7 +108,7 @@ static cv_status attempt(dg_sweep *s, const dg_curve *left, const dg_curve *righ
         if (unpaired_matter(left, g.right_of, s->masses[k].x) ||
             unpaired_matter(right, g.left_of, s->masses[k].x))
             return CV_UNDECIDED;
-    const double width = right->alpha - left->alpha;
+    const double width = right->at.alpha - left->at.alpha;
     if (left->crossing_count == right->crossing_count &&
         (dip_matters(s, left, width) || dip_matters(s, right, -width)))
         return CV_UNDECIDED;
@@ -133,8 +133,8 @@ static int unexplained(dg_sweep *s, const dg_curve *left, const dg_curve *right,
             continue;
         any = 1;
         if (doubt)
-            dg_sweep_doubt(mass, "unexplained change of the number of unstable roots", left->alpha,
-                           right->alpha);
+            dg_sweep_doubt(mass, "unexplained change of the number of unstable roots", left->at.alpha,
+                           right->at.alpha);
     }
     return any;
 }
@@ -143,7 +143,7 @@ static int unexplained(dg_sweep *s, const dg_curve *left, const dg_curve *right,
 static double middle_velocity(const dg_sweep *s, double low, double high)
 {
     size_t n;
-    const dg_special_velocity *special = dg_special_velocities(&n, s->curves);
+    const dg_special_velocity *special = dg_special_velocities(&n, s->probe.branches);
     double below = 0, above = INFINITY;
     for (size_t i = 0; i < n; i++) {
         if (special[i].alpha <= low)
@@ -161,8 +161,8 @@ static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right
 static cv_status cut(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth)
 {
     dg_curve middle = {0};
-    const double alpha = middle_velocity(s, left->alpha, right->alpha);
-    cv_status status = dg_curve_at(&middle, &s->probe, s->curves, alpha, s->x_floor, s->why);
+    const double alpha = middle_velocity(s, left->at.alpha, right->at.alpha);
+    cv_status status = dg_curve_at(&middle, &s->probe, alpha, s->x_floor, s->why);
     if (status == CV_OK)
         status = search(s, left, &middle, depth - 1);
     if (status == CV_OK)
@@ -179,12 +179,12 @@ static void give_up(dg_sweep *s, const dg_curve *left, const dg_curve *right)
     for (size_t k = 0; k < s->mass_count; k++)
         if (!aligned || unpaired_matter(left, g.right_of, s->masses[k].x) ||
             unpaired_matter(right, g.left_of, s->masses[k].x))
-            dg_sweep_doubt(&s->masses[k], "crossings that cannot be paired", left->alpha, right->alpha);
+            dg_sweep_doubt(&s->masses[k], "crossings that cannot be paired", left->at.alpha, right->at.alpha);
 }
 
 static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth)
 {
-    const int last = depth == 0 || right->alpha - left->alpha <= 8 * DBL_EPSILON * right->alpha;
+    const int last = depth == 0 || right->at.alpha - left->at.alpha <= 8 * DBL_EPSILON * right->at.alpha;
     size_t *before = malloc(s->mass_count * sizeof *before);
     if (before == NULL)
         return cv_fail(s->why, CV_FAILED, "out of memory");

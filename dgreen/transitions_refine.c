@@ -8,8 +8,10 @@
 #define RND MPFR_RNDN
 
 enum { MORE_BITS = 64, MAX_EXTRA_BITS = 4096, GUARD_DIGITS = 8, INNER_ROUNDS = 8 };
-/* First and largest half-width of the brackets, in units of the distance over which zeta changes */
-static const double FIRST_WIDTH = 1e-9, LAST_WIDTH = 0.2;
+/* First and largest half-width of the brackets, in units of the distance over which zeta changes. The inner
+ * search knows its root ever better: from double; from one root nearby and the slope in double; from two. */
+static const double FIRST_WIDTH = 1e-8, LAST_WIDTH = 0.2;
+static const double INNER_WIDTH[3] = {1e-7, 1e-11, 1e-16};
 
 typedef struct {
     const dg_track *track;
@@ -20,7 +22,9 @@ typedef struct {
     mpc_t zeta;
     mpfr_t re_error, im_error, target; /* target = 1/eta_M */
     mpfr_srcptr alpha;                 /* of the inner search */
-    mpfr_t alpha_first, q_first, q_centre;
+    int known;                         /* inner roots found so far, at most two are kept */
+    mpfr_t alpha_known[2], q_known[2]; /* before the first: what the double search says */
+    mpfr_t q_centre, alpha_step;
     dg_bracket inner; /* in q: value = Im zeta, aside = Re zeta - 1/eta_M, and its bounds */
     dg_bracket outer; /* in alpha: value = Re zeta - 1/eta_M at the inner root, aside = q and its bounds */
 } refiner;
@@ -77,16 +81,40 @@ static int excess_sign(const refiner *r)
     return mpfr_sgn(a->aside_high) < 0 && mpfr_sgn(b->aside_high) < 0 ? -1 : 0;
 }
 
+/* r->q_centre = where the inner root is expected: the line through what is known */
+static void expect(refiner *r)
+{
+    mpfr_sub(r->q_centre, r->alpha, r->alpha_known[0], RND);
+    mpfr_sub(r->alpha_step, r->alpha_known[1], r->alpha_known[0], RND);
+    if (r->known < 2 || mpfr_zero_p(r->alpha_step)) {
+        mpfr_mul_d(r->q_centre, r->q_centre, r->find->dq, RND);
+    } else {
+        mpfr_div(r->q_centre, r->q_centre, r->alpha_step, RND);
+        mpfr_sub(r->alpha_step, r->q_known[1], r->q_known[0], RND);
+        mpfr_mul(r->q_centre, r->q_centre, r->alpha_step, RND);
+    }
+    mpfr_add(r->q_centre, r->q_centre, r->q_known[0], RND);
+}
+
+static void remember(refiner *r)
+{
+    mpfr_swap(r->alpha_known[0], r->alpha_known[1]);
+    mpfr_swap(r->q_known[0], r->q_known[1]);
+    mpfr_set(r->alpha_known[0], r->alpha, RND);
+    mpfr_add(r->q_known[0], r->inner.low.at, r->inner.high.at, RND);
+    mpfr_div_2ui(r->q_known[0], r->q_known[0], 1, RND);
+    r->known += r->known < 2;
+}
+
 /* Outer function: Re zeta - 1/eta_M at the velocity e->at and the frequency with Im zeta = 0. */
 static cv_status excess(dg_end *e, void *context)
 {
     refiner *r = context;
-    const dg_find *f = r->find;
+    const double scale = r->find->scale;
     r->alpha = e->at;
-    mpfr_sub(r->q_centre, e->at, r->alpha_first, RND);
-    mpfr_mul_d(r->q_centre, r->q_centre, f->dq, RND);
-    mpfr_add(r->q_centre, r->q_centre, r->q_first, RND);
-    cv_status status = dg_bracket_open(&r->inner, r->q_centre, FIRST_WIDTH * f->scale, LAST_WIDTH * f->scale);
+    expect(r);
+    cv_status status =
+        dg_bracket_open(&r->inner, r->q_centre, INNER_WIDTH[r->known] * scale, LAST_WIDTH * scale);
     e->sign = 0;
     for (int i = 0; i < INNER_ROUNDS && status == CV_OK && e->sign == 0; i++) {
         status = dg_bracket_close(&r->inner);
@@ -96,11 +124,14 @@ static cv_status excess(dg_end *e, void *context)
     }
     if (status == CV_OK && e->sign == 0)
         return CV_UNDECIDED;
+    if (status != CV_OK)
+        return status;
+    remember(r);
     mpfr_add(e->value, r->inner.low.aside, r->inner.high.aside, RND);
     mpfr_div_2ui(e->value, e->value, 1, RND);
     mpfr_set(e->aside_low, r->inner.low.at, RND);
     mpfr_set(e->aside_high, r->inner.high.at, RND);
-    return status;
+    return CV_OK;
 }
 
 static void refiner_init(refiner *r, const dg_track *track, dg_effort *effort, const dg_find *find,
@@ -114,11 +145,12 @@ static void refiner_init(refiner *r, const dg_track *track, dg_effort *effort, c
     r->bits = 64 * ((mpfr_prec_t)needed / 64 + 1) - 1;
     r->most_bits = r->bits + MAX_EXTRA_BITS;
     mpc_init2(r->zeta, r->bits);
-    mpfr_inits2(r->bits, r->re_error, r->im_error, r->target, r->alpha_first, r->q_first, r->q_centre,
-                (mpfr_ptr)NULL);
+    mpfr_inits2(r->bits, r->re_error, r->im_error, r->target, r->q_centre, r->alpha_step, r->alpha_known[0],
+                r->alpha_known[1], r->q_known[0], r->q_known[1], (mpfr_ptr)NULL);
     set_target(r);
-    mpfr_set_d(r->alpha_first, find->alpha, RND);
-    mpfr_set_d(r->q_first, find->q, RND);
+    r->known = 0;
+    mpfr_set_d(r->alpha_known[0], find->alpha, RND);
+    mpfr_set_d(r->q_known[0], find->q, RND);
     dg_bracket_init(&r->inner, r->bits, imaginary_part, r);
     dg_bracket_init(&r->outer, r->bits, excess, r);
     r->inner.scale = find->scale;
@@ -136,7 +168,8 @@ static void refiner_clear(refiner *r)
     dg_bracket_clear(&r->inner);
     dg_bracket_clear(&r->outer);
     mpc_clear(r->zeta);
-    mpfr_clears(r->re_error, r->im_error, r->target, r->alpha_first, r->q_first, r->q_centre, (mpfr_ptr)NULL);
+    mpfr_clears(r->re_error, r->im_error, r->target, r->q_centre, r->alpha_step, r->alpha_known[0],
+                r->alpha_known[1], r->q_known[0], r->q_known[1], (mpfr_ptr)NULL);
 }
 
 /* Middle of [low, high] and its half-width, rounded up to cover the rounding of the middle. */
@@ -169,14 +202,15 @@ cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track
     refiner r;
     refiner_init(&r, track, effort, find, mass_ratio, digits);
     const double unit = r.outer.scale;
-    cv_status status = dg_bracket_open(&r.outer, r.alpha_first, FIRST_WIDTH * unit, LAST_WIDTH * unit);
+    mpfr_set_d(r.outer.step, find->alpha, RND);
+    cv_status status = dg_bracket_open(&r.outer, r.outer.step, FIRST_WIDTH * unit, LAST_WIDTH * unit);
     if (status == CV_OK)
         status = dg_bracket_close(&r.outer);
     if (status == CV_OK) {
         report(out, &r);
     } else {
-        mpfr_set(out->alpha, r.alpha_first, RND);
-        mpfr_set(out->frequency, r.q_first, RND);
+        mpfr_set_d(out->alpha, find->alpha, RND);
+        mpfr_set_d(out->frequency, find->q, RND);
         out->alpha_error = LAST_WIDTH * unit;
         out->frequency_error = LAST_WIDTH * find->scale;
     }

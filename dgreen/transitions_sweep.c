@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "dgreen/transitions_cell.h"
 
@@ -81,7 +82,7 @@ static int ascending(const void *a, const void *b)
 static cv_status choose(velocities *v, const dg_sweep *s, double alpha_min, double alpha_max)
 {
     size_t n;
-    const dg_special_velocity *special = dg_special_velocities(&n, s->curves);
+    const dg_special_velocity *special = dg_special_velocities(&n, s->probe.branches);
     const double range = RANGE_STEP * (alpha_max - alpha_min);
     cv_status status = push(v, alpha_max, s->why);
     for (double a = alpha_min; a < alpha_max && status == CV_OK; a += fmin(RELATIVE_STEP * a, range))
@@ -100,13 +101,15 @@ static cv_status choose(velocities *v, const dg_sweep *s, double alpha_min, doub
     return status;
 }
 
-/* The counts at one velocity must agree in both ways. */
+/* The counts at one velocity must agree in both ways; not asked where the velocity is so close to a
+ * transition that the curve in double passes through 1/eta_M. */
 static void check_counts(dg_sweep *s, const dg_curve *c)
 {
     for (size_t k = 0; k < s->mass_count; k++) {
         int roots;
         cv_message why;
-        if (dg_winding(&roots, c, s->masses[k].x, &why) != CV_OK && s->masses[k].status == CV_OK) {
+        if (!dg_curve_touches(c, s->masses[k].x) && dg_winding(&roots, c, s->masses[k].x, &why) != CV_OK &&
+            s->masses[k].status == CV_OK) {
             s->masses[k].status = CV_UNDECIDED;
             s->masses[k].why = why;
         }
@@ -118,7 +121,7 @@ static cv_status walk(dg_sweep *s, const velocities *v, dg_curve *curves)
     cv_status status = CV_OK;
     for (size_t i = 0; i < v->count && status == CV_OK; i++) {
         dg_curve *here = &curves[i % 2];
-        status = dg_curve_at(here, &s->probe, s->curves, v->at[i], s->x_floor, s->why);
+        status = dg_curve_at(here, &s->probe, v->at[i], s->x_floor, s->why);
         if (status != CV_OK)
             break;
         check_counts(s, here);
@@ -134,7 +137,8 @@ static cv_status walk(dg_sweep *s, const velocities *v, dg_curve *curves)
 cv_status dg_sweep_run(dg_sweep *s, double alpha_min, double alpha_max)
 {
     velocities v = {0};
-    dg_curve curves[2] = {{0}};
+    dg_curve curves[2];
+    memset(curves, 0, sizeof curves);
     cv_status status = choose(&v, s, alpha_min, alpha_max);
     if (status == CV_OK)
         status = walk(s, &v, curves);

@@ -25,7 +25,6 @@ typedef struct {
 
 typedef struct {
     dg_probe probe;
-    dg_branch_curves *curves;
     double x_floor; /* below every 1/eta_M */
     double x_roof;  /* above every 1/eta_M */
     size_t mass_count;

@@ -13,6 +13,14 @@ int dg_crossing_balance(const dg_curve *c, double x)
     return balance;
 }
 
+int dg_curve_touches(const dg_curve *c, double x)
+{
+    for (size_t i = 0; i < c->crossing_count; i++)
+        if (c->crossings[i].x_low <= x && c->crossings[i].x_high >= x)
+            return 1;
+    return 0;
+}
+
 /* arg(b - x) - arg(a - x) along the straight line from a to b; 0 with *passes = 1 where the line comes too
  * near to x for the values to tell the side. */
 static double turn(int *passes, const dg_node *a, const dg_node *b, double x)
@@ -28,21 +36,19 @@ static double turn(int *passes, const dg_node *a, const dg_node *b, double x)
 cv_status dg_winding(int *roots, const dg_curve *c, double x, cv_message *why)
 {
     const dg_node *first = &c->nodes[0], *last = &c->nodes[c->node_count - 1];
-    int passes = 0;
+    int passes = dg_curve_touches(c, x);
     double sum = atan2(-first->im, x - first->re); /* zeta(0) = 0 */
     for (size_t i = 0; i + 1 < c->node_count; i++)
         sum += turn(&passes, &c->nodes[i], &c->nodes[i + 1], x);
     sum += PI / 4 - atan2(-last->im, x - last->re); /* the bare rail to infinity */
-    for (size_t i = 0; i < c->crossing_count; i++)
-        passes |= c->crossings[i].x_low <= x && c->crossings[i].x_high >= x;
     if (passes)
-        return cv_fail(why, CV_UNDECIDED, "a root on the stability boundary at alpha = %.17g", c->alpha);
+        return cv_fail(why, CV_UNDECIDED, "a root on the stability boundary at alpha = %.17g", c->at.alpha);
     const double count = 0.25 - sum / PI;
     *roots = 2 * (int)lround(count / 2);
     if (!(fabs(count - *roots) < 1e-6) || *roots < 0)
-        return cv_fail(why, CV_UNDECIDED, "winding gives %.7f roots at alpha = %.17g", count, c->alpha);
+        return cv_fail(why, CV_UNDECIDED, "winding gives %.7f roots at alpha = %.17g", count, c->at.alpha);
     if (*roots != dg_crossing_balance(c, x))
         return cv_fail(why, CV_UNDECIDED, "winding gives %d roots, crossings give %d at alpha = %.17g",
-                       *roots, dg_crossing_balance(c, x), c->alpha);
+                       *roots, dg_crossing_balance(c, x), c->at.alpha);
     return CV_OK;
 }

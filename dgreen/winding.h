@@ -11,9 +11,13 @@
 /* The two counts from one sampled curve, eta_M = 1/x, x > 0 and not below the curve's x_floor:
  * *roots by the winding; it must equal twice the balance of the crossings beyond x (+1 each that goes from
  * Im zeta > 0 to < 0 as q grows, -1 the others).
- * CV_UNDECIDED: x lies inside the bracket of a crossing (alpha is a transition to working precision), the sum
+ * CV_UNDECIDED: dg_curve_touches, the sum
  * is not within 1e-6 of an even number >= 0, or the two counts differ. */
 cv_status dg_winding(int *roots, const dg_curve *c, double x, cv_message *why);
+
+/* Whether x lies inside the bracket of a crossing, so that the curve does not tell on which side it passes.
+ */
+int dg_curve_touches(const dg_curve *c, double x);
 
 /* Twice the balance of the crossings beyond x. */
 int dg_crossing_balance(const dg_curve *c, double x);
