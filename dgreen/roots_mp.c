@@ -202,14 +202,31 @@ static cv_status enclose(dg_mp_roots *roots, const dg_mp_operator *op)
     return dg_separate(roots->radius, roots->slope_relative, roots->crowding, &s);
 }
 
+/* Starting values; those that double could not tell apart are moved apart, for the iteration cannot. */
+static void set_start(dg_mp_roots *roots, const dg_roots *start)
+{
+    const int near = start->count - start->far;
+    double scale = 0;
+    for (int i = 0; i < near; i++)
+        scale = fmax(scale, hypot(start->re[i], start->im[i]));
+    if (!(scale > 0))
+        scale = 1;
+    for (int i = 0; i < start->count; i++) {
+        double shift = 0;
+        for (int k = 0; k < i && i < near; k++)
+            if (hypot(start->re[i] - start->re[k], start->im[i] - start->im[k]) < 1e-10 * scale)
+                shift += 1e-9 * scale;
+        mpc_set_d_d(roots->y[i], start->re[i] + 0.6 * shift, start->im[i] + 0.8 * shift, CRND);
+    }
+}
+
 cv_status dg_mp_roots_find(dg_mp_roots *roots, const dg_mp_operator *op, const dg_roots *start, int on_axis)
 {
     if (start->count != op->rounded.degree)
         return CV_FAILED;
     roots->count = start->count;
     roots->far = start->far;
-    for (int i = 0; i < start->count; i++)
-        mpc_set_d_d(roots->y[i], start->re[i], start->im[i], CRND);
+    set_start(roots, start);
     iterate(roots, op);
     if (on_axis)
         put_on_axis(roots);
