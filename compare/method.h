@@ -58,9 +58,8 @@ typedef struct {
     void (*close)(void *handle);
     /* lists[0 .. mass_count-1] initialised by the caller; what cannot be decided is said in the lists, not by
      * the status returned; alpha_min <= alpha <= alpha_max; relative error of alpha and q below 10^-digits */
-    cv_status (*find)(void *handle, cmp_list *lists, cmp_effort *effort, const cv_number *alpha_min,
-                      const cv_number *alpha_max, size_t mass_count, const cv_number *mass_ratios, int digits,
-                      cv_message *why);
+    cv_status (*find)(void *handle, cmp_list *lists, cmp_effort *effort, size_t mass_count,
+                      const cv_number *mass_ratios, int digits, cv_message *why);
     /* number of roots of 1 - eta_M zeta = 0 with Re qbar > 0, for each of the mass ratios */
     cv_status (*count)(void *handle, int *roots, double alpha, size_t mass_count,
                        const cv_number *mass_ratios, cv_message *why);

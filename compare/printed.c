@@ -7,8 +7,9 @@
 
 #include "compare/printed_file.h"
 #include "compare/printed_formulas.h"
+#include "compare/printed_velocities.h"
 
-enum { MAX_ROWS = 64, EXTRA_DECIMALS = 3 };
+enum { MAX_ROWS = 64 };
 
 /* Which cases of table 1 the run has, by exact parameters; the damping is not part of the table. */
 static int same_track(const cv_params *a, const cv_params *b)
@@ -86,6 +87,17 @@ static cv_status add_notation(cmp_printed *p, const cmp_printed_entry *e, cv_mes
     return CV_OK;
 }
 
+/* Only for a case that is in the run. */
+static cv_status add_resonances(cmp_printed *p, const cmp_printed_entry *e, const cmp_run *run,
+                                const cmp_printed_file *file, cv_message *why)
+{
+    const cmp_case *found = NULL;
+    cv_status status = find_case(&found, run, file, e->key, why);
+    if (status != CV_OK || found == NULL)
+        return status;
+    return cmp_printed_resonances(p, MAX_ROWS, e, &found->from->params, why);
+}
+
 static cv_status add_entry(cmp_printed *p, const cmp_printed_entry *e, const cmp_run *run,
                            const cmp_printed_file *file, cv_message *why)
 {
@@ -93,6 +105,8 @@ static cv_status add_entry(cmp_printed *p, const cmp_printed_entry *e, const cmp
         return add_formula(p, e, run, file, why);
     if (strcmp(e->kind, "notation") == 0)
         return add_notation(p, e, why);
+    if (strcmp(e->kind, "resonances") == 0)
+        return add_resonances(p, e, run, file, why);
     return CV_OK;
 }
 

@@ -179,8 +179,7 @@ static cv_status find_unit(void *context, size_t index, cv_message *why)
         method->open(&handle, &level->params, &p->run->file->alpha_min, &p->run->file->alpha_max, why);
     if (status != CV_OK)
         return status;
-    status = method->find(handle, level->lists[u->method], &level->effort[u->method],
-                          &p->run->file->alpha_min, &p->run->file->alpha_max, u->in->from->mass_count,
+    status = method->find(handle, level->lists[u->method], &level->effort[u->method], u->in->from->mass_count,
                           u->in->from->mass_ratios, p->run->file->digits, why);
     method->close(handle);
     level->effort[u->method].cpu_seconds = thread_seconds() - start;

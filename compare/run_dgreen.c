@@ -12,7 +12,7 @@ static const double FLOOR = 0.3;
 
 typedef struct {
     cv_params params;
-    double alpha_min, alpha_max; /* for the counts */
+    cv_number alpha_min, alpha_max;
     dg_track *track;
     dg_follow *follow;
     dg_branch_curves *curves; /* made when the first count asks for them */
@@ -26,6 +26,8 @@ static void close_handle(void *opaque)
     dg_branch_curves_free(h->curves);
     dg_follow_free(h->follow);
     dg_track_free(h->track);
+    cv_number_clear(&h->alpha_min);
+    cv_number_clear(&h->alpha_max);
     cv_params_clear(&h->params);
     free(h);
 }
@@ -38,8 +40,10 @@ static cv_status open_handle(void **out, const cv_params *params, const cv_numbe
         return cv_fail(why, CV_FAILED, "out of memory");
     cv_params_init(&h->params);
     cv_params_set(&h->params, params);
-    h->alpha_min = cv_number_get_double(alpha_min);
-    h->alpha_max = cv_number_get_double(alpha_max);
+    cv_number_init(&h->alpha_min);
+    cv_number_set(&h->alpha_min, alpha_min);
+    cv_number_init(&h->alpha_max);
+    cv_number_set(&h->alpha_max, alpha_max);
     cv_status status = dg_track_new(&h->track, params, why);
     if (status == CV_OK)
         status = dg_follow_new(&h->follow, why);
@@ -63,16 +67,15 @@ static cv_status copy_list(cmp_list *to, const dg_transition_list *from, cv_mess
     return status;
 }
 
-static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, const cv_number *alpha_min,
-                      const cv_number *alpha_max, size_t mass_count, const cv_number *mass_ratios, int digits,
-                      cv_message *why)
+static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t mass_count,
+                      const cv_number *mass_ratios, int digits, cv_message *why)
 {
     handle *h = opaque;
     dg_effort cost = {0, 0, 0};
     dg_transition_list *found = calloc(mass_count, sizeof *found);
     if (found == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
-    cv_status status = dg_find_transitions(found, &cost, &h->params, alpha_min, alpha_max, mass_count,
+    cv_status status = dg_find_transitions(found, &cost, &h->params, &h->alpha_min, &h->alpha_max, mass_count,
                                            mass_ratios, digits, why);
     if (status == CV_UNDECIDED) {
         for (size_t i = 0; i < mass_count; i++) {
@@ -103,7 +106,8 @@ static cv_status count(void *opaque, int *roots, double alpha, size_t mass_count
     for (size_t i = 0; i < mass_count; i++)
         smallest = fmin(smallest, 1.0 / cv_number_get_double(&mass_ratios[i]));
     if (h->curves == NULL)
-        status = dg_branch_curves_new(&h->curves, h->track, h->alpha_min, h->alpha_max, why);
+        status = dg_branch_curves_new(&h->curves, h->track, cv_number_get_double(&h->alpha_min),
+                                      cv_number_get_double(&h->alpha_max), why);
     if (status == CV_OK)
         status = dg_curve_at(&h->curve, &probe, h->curves, alpha, FLOOR * smallest, why);
     for (size_t i = 0; status == CV_OK && i < mass_count; i++)

@@ -74,12 +74,11 @@ static int fake_is_one(const cv_number *eta_M)
     return mpq_cmp_ui(eta_M->factor, 1, 1) == 0;
 }
 
-static cv_status fake_find(void *handle, cmp_list *lists, cmp_effort *effort, const cv_number *alpha_min,
-                           const cv_number *alpha_max, size_t mass_count, const cv_number *mass_ratios,
-                           int digits, cv_message *why)
+static cv_status fake_find(void *handle, cmp_list *lists, cmp_effort *effort, size_t mass_count,
+                           const cv_number *mass_ratios, int digits, cv_message *why)
 {
     const fake_faults *f = handle;
-    (void)alpha_min, (void)alpha_max, (void)digits;
+    (void)digits;
     if (f->find != CV_OK)
         return cv_fail(why, f->find, "the fake was told to fail");
     *effort = (cmp_effort){1, 2, 3, 0.0};

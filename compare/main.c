@@ -1,0 +1,175 @@
+/* critvel-compare: command line, warnings, progress; the work is in run.h and report.h. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "common/selection.h"
+#include "compare/output.h"
+#include "compare/report.h"
+
+static const char HELP[] =
+    "usage: critvel-compare [options] FILE\n"
+    "\n"
+    "Finds the velocities at which a mass moving on an infinite beam on three viscoelastic layers gains or "
+    "loses\n"
+    "unstable roots, by two independent methods (semianalytical and D-decomposition), for every case, "
+    "damping level\n"
+    "and mass ratio of the case file FILE, and says how many digits agree, where they do not, and where it "
+    "cannot "
+    "tell.\n"
+    "\n"
+    "  --case NAME       only the section [case NAME] or [track NAME]\n"
+    "  --damping X       eta_p = eta_b = eta_f = X instead of the levels of the file\n"
+    "  --transitions     list every transition in the table for people, too\n"
+    "  --format FORMAT   text (default) or json (schema critvel-compare/1)\n"
+    "  --output FILE     write there, whole or not at all, instead of to standard output\n"
+    "  --threads N       at most N threads (default: one for each processor); the answer does not depend on "
+    "it\n"
+    "  --help            this text\n"
+    "  --version         the version\n"
+    "\n"
+    "exit status: 0 everything agrees, 1 a disagreement or an undecided result, 2 bad usage or bad input,\n"
+    "3 internal or I/O failure\n";
+
+typedef struct {
+    cv_selection selection;
+    const char *output;
+    size_t threads; /* 0: as many as processors */
+    int transitions;
+} options;
+
+static cv_status set_threads(void *to, const char *text, cv_message *why)
+{
+    char *end;
+    const long n = strtol(text, &end, 10);
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || n < 1 || n > 1024)
+        return cv_fail(why, CV_BAD_INPUT, "\"%.60s\" is not a number of threads (1 to 1024)", text);
+    *(size_t *)to = (size_t)n;
+    return CV_OK;
+}
+
+static const cv_option OPTIONS[] = {
+    CV_OPTION_CASE(offsetof(options, selection)),
+    CV_OPTION_DAMPING(offsetof(options, selection)),
+    CV_OPTION_FORMAT(offsetof(options, selection)),
+    {"output", cv_set_text, offsetof(options, output), 0},
+    {"threads", set_threads, offsetof(options, threads), 0},
+    {"transitions", cv_set_flag, offsetof(options, transitions), 1},
+    {NULL, NULL, 0, 0},
+};
+
+/* What the listener prints to. */
+typedef struct {
+    FILE *log;
+    const char *doing;
+    int shown;
+} progress;
+
+static void show_progress(void *context, size_t done, size_t total, double seconds)
+{
+    progress *p = context;
+    if (seconds < 2.0)
+        return;
+    fprintf(p->log, "\r%s: %zu of %zu, %.0f s", p->doing, done, total, seconds);
+    fflush(p->log);
+    p->shown = 1;
+}
+
+static cv_status do_phases(cmp_run *run, size_t threads, FILE *log, cv_message *why)
+{
+    progress p = {log, "transitions", 0};
+    const cmp_listener listener = {isatty(fileno(log)) ? show_progress : NULL, &p};
+    cv_status status = cmp_run_find(run, threads, &listener, why);
+    p.doing = "checks     ";
+    if (status == CV_OK)
+        status = cmp_run_judge(run, threads, &listener, why);
+    if (p.shown)
+        fputc('\n', log);
+    return status;
+}
+
+static void warn(const cmp_run *run, FILE *log)
+{
+    cv_message warning;
+    for (size_t i = 0; i < run->case_count; i++)
+        if (cv_params_warn(&run->cases[i].from->params, &warning))
+            fprintf(log, "critvel-compare: warning: %s %s: %s\n",
+                    run->cases[i].from->is_track ? "track" : "case", run->cases[i].from->name, warning.text);
+}
+
+static cv_status report(FILE *out, const cmp_run *run, const options *o, cv_message *why)
+{
+    cmp_printed printed;
+    cv_status status = cmp_printed_make(&printed, run, why);
+    if (status != CV_OK)
+        return status;
+    if (o->selection.format == CV_FORMAT_JSON)
+        status = cmp_report_json(out, run, &printed, why);
+    else
+        status = cmp_report_text(out, run, &printed, o->transitions, why);
+    cmp_printed_clear(&printed);
+    return status;
+}
+
+/* The report goes to memory first, so that the file is written in one piece. */
+static cv_status report_to_file(const cmp_run *run, const options *o, cv_message *why)
+{
+    char *bytes = NULL;
+    size_t n = 0;
+    FILE *memory = open_memstream(&bytes, &n);
+    if (memory == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    cv_status status = report(memory, run, o, why);
+    if (fclose(memory) != 0 && status == CV_OK)
+        status = cv_fail(why, CV_FAILED, "out of memory");
+    if (status == CV_OK)
+        status = cmp_output_write(o->output, bytes, n, why);
+    free(bytes);
+    return status;
+}
+
+static cv_status compare(const options *o, const cv_casefile *file, FILE *out, FILE *log, cv_message *why)
+{
+    static const cmp_method *const methods[] = {&cmp_method_semianalytic, &cmp_method_dgreen};
+    cmp_run run;
+    cmp_summary summary;
+    cv_status status =
+        cmp_run_init(&run, file, o->selection.case_name,
+                     o->selection.damping.given ? &o->selection.damping.value : NULL, methods, why);
+    if (status != CV_OK)
+        return status;
+    warn(&run, log);
+    status = do_phases(&run, o->threads, log, why);
+    if (status == CV_OK)
+        status = o->output != NULL ? report_to_file(&run, o, why) : report(out, &run, o, why);
+    cmp_run_summary(&summary, &run);
+    cmp_run_clear(&run);
+    return status == CV_OK && summary.worst != CMP_AGREE ? CV_UNDECIDED : status;
+}
+
+static cv_status work(const void *typed, const cv_arguments *arguments, FILE *out, FILE *log, cv_message *why)
+{
+    const options *o = typed;
+    cv_casefile file;
+    if (o->selection.damping.given && cv_number_sign(&o->selection.damping.value) < 0)
+        return cv_fail(why, CV_BAD_INPUT, "--damping must not be negative");
+    cv_status status = cv_casefile_read(&file, arguments->path, why);
+    if (status != CV_OK)
+        return status;
+    if (o->output != NULL)
+        status = cmp_output_check(o->output, why);
+    if (status == CV_OK)
+        status = compare(o, &file, out, log, why);
+    cv_casefile_clear(&file);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    static const cv_program program = {"critvel-compare", HELP, NULL, OPTIONS, work};
+    options o = {.output = NULL, .threads = 0, .transitions = 0};
+    cv_selection_init(&o.selection);
+    const int status = cv_main(&program, &o, argc, argv);
+    cv_selection_clear(&o.selection);
+    return status;
+}
