@@ -33,6 +33,18 @@ const char *cmp_format_exact(cmp_number_text *out, const cv_number *x, int digit
     return out->text;
 }
 
+const char *cmp_format_damping(cmp_damping_text *out, const cv_params *p, int digits)
+{
+    cmp_number_text a, b, c;
+    const char *first = cmp_format_exact(&a, &p->eta_p, digits);
+    if (cv_number_compare(&p->eta_p, &p->eta_b) == 0 && cv_number_compare(&p->eta_p, &p->eta_f) == 0)
+        snprintf(out->text, sizeof out->text, "%s", first);
+    else
+        snprintf(out->text, sizeof out->text, "%s/%s/%s", first, cmp_format_exact(&b, &p->eta_b, digits),
+                 cmp_format_exact(&c, &p->eta_f, digits));
+    return out->text;
+}
+
 double cmp_floor_tenth(double digits)
 {
     return floor(digits * 10.0) / 10.0;

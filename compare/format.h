@@ -21,6 +21,13 @@ const char *cmp_format_claimed(cmp_number_text *out, mpfr_srcptr x, mpfr_srcptr 
 /* An exact number, as it was typed where it is a decimal, else to "digits" digits. */
 const char *cmp_format_exact(cmp_number_text *out, const cv_number *x, int digits);
 
+typedef struct {
+    char text[3 * CMP_NUMBER_SIZE];
+} cmp_damping_text;
+
+/* "1e-10", or "eta_p/eta_b/eta_f" where they are not equal. */
+const char *cmp_format_damping(cmp_damping_text *out, const cv_params *p, int digits);
+
 /* Digits of agreement, rounded down to one decimal place. */
 const char *cmp_format_digits(cmp_number_text *out, double digits);
 double cmp_floor_tenth(double digits);

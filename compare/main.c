@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include "common/selection.h"
+#include "compare/efficiency.h"
 #include "compare/output.h"
 #include "compare/report.h"
 
 static const char HELP[] =
     "usage: critvel-compare [options] FILE\n"
+    "       critvel-compare efficiency [options] FILE\n"
     "\n"
     "Finds the velocities at which a mass moving on an infinite beam on three viscoelastic layers gains or "
     "loses\n"
@@ -17,6 +19,10 @@ static const char HELP[] =
     "and mass ratio of the case file FILE, and says how many digits agree, where they do not, and where it "
     "cannot "
     "tell.\n"
+    "\n"
+    "efficiency: what each method spent on its search, per case and damping level: evaluations, how many of "
+    "them above\n"
+    "double precision, the largest precision, and processor time.\n"
     "\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
     "  --damping X       eta_p = eta_b = eta_f = X instead of the levels of the file\n"
@@ -75,13 +81,13 @@ static void show_progress(void *context, size_t done, size_t total, double secon
     p->shown = 1;
 }
 
-static cv_status do_phases(cmp_run *run, size_t threads, FILE *log, cv_message *why)
+static cv_status do_phases(cmp_run *run, size_t threads, int with_checks, FILE *log, cv_message *why)
 {
     progress p = {log, "transitions", 0};
     const cmp_listener listener = {isatty(fileno(log)) ? show_progress : NULL, &p};
     cv_status status = cmp_run_find(run, threads, &listener, why);
     p.doing = "checks     ";
-    if (status == CV_OK)
+    if (status == CV_OK && with_checks)
         status = cmp_run_judge(run, threads, &listener, why);
     if (p.shown)
         fputc('\n', log);
@@ -97,7 +103,7 @@ static void warn(const cmp_run *run, FILE *log)
                     run->cases[i].from->is_track ? "track" : "case", run->cases[i].from->name, warning.text);
 }
 
-static cv_status report(FILE *out, const cmp_run *run, const options *o, cv_message *why)
+static cv_status report_verdicts(FILE *out, const cmp_run *run, const options *o, cv_message *why)
 {
     cmp_printed printed;
     cv_status status = cmp_printed_make(&printed, run, why);
@@ -111,8 +117,17 @@ static cv_status report(FILE *out, const cmp_run *run, const options *o, cv_mess
     return status;
 }
 
+static cv_status report_efficiency(FILE *out, const cmp_run *run, const options *o, cv_message *why)
+{
+    return o->selection.format == CV_FORMAT_JSON ? cmp_efficiency_json(out, run, why)
+                                                 : cmp_efficiency_text(out, run, why);
+}
+
+/* Writes what the command is asked for. */
+typedef cv_status reporter(FILE *out, const cmp_run *run, const options *o, cv_message *why);
+
 /* The report goes to memory first, so that the file is written in one piece. */
-static cv_status report_to_file(const cmp_run *run, const options *o, cv_message *why)
+static cv_status report_to_file(reporter *report, const cmp_run *run, const options *o, cv_message *why)
 {
     char *bytes = NULL;
     size_t n = 0;
@@ -128,9 +143,12 @@ static cv_status report_to_file(const cmp_run *run, const options *o, cv_message
     return status;
 }
 
-static cv_status compare(const options *o, const cv_casefile *file, FILE *out, FILE *log, cv_message *why)
+/* efficiency: the searches alone; otherwise everything, and CV_UNDECIDED unless everything agrees. */
+static cv_status compare(int efficiency, const options *o, const cv_casefile *file, FILE *out, FILE *log,
+                         cv_message *why)
 {
     static const cmp_method *const methods[] = {&cmp_method_semianalytic, &cmp_method_dgreen};
+    reporter *const report = efficiency ? report_efficiency : report_verdicts;
     cmp_run run;
     cmp_summary summary;
     cv_status status =
@@ -139,9 +157,9 @@ static cv_status compare(const options *o, const cv_casefile *file, FILE *out, F
     if (status != CV_OK)
         return status;
     warn(&run, log);
-    status = do_phases(&run, o->threads, log, why);
+    status = do_phases(&run, o->threads, !efficiency, log, why);
     if (status == CV_OK)
-        status = o->output != NULL ? report_to_file(&run, o, why) : report(out, &run, o, why);
+        status = o->output != NULL ? report_to_file(report, &run, o, why) : report(out, &run, o, why);
     cmp_run_summary(&summary, &run);
     cmp_run_clear(&run);
     return status == CV_OK && summary.worst != CMP_AGREE ? CV_UNDECIDED : status;
@@ -159,14 +177,17 @@ static cv_status work(const void *typed, const cv_arguments *arguments, FILE *ou
     if (o->output != NULL)
         status = cmp_output_check(o->output, why);
     if (status == CV_OK)
-        status = compare(o, &file, out, log, why);
+        status = compare(arguments->command != NULL, o, &file, out, log, why);
     cv_casefile_clear(&file);
     return status;
 }
 
+/* The first word is FILE unless it is a command; a file of that name can be given as ./efficiency. */
 int main(int argc, char **argv)
 {
-    static const cv_program program = {"critvel-compare", HELP, NULL, OPTIONS, work};
+    static const char *const commands[] = {"efficiency", NULL};
+    const int commanded = argc > 1 && strcmp(argv[1], commands[0]) == 0;
+    const cv_program program = {"critvel-compare", HELP, commanded ? commands : NULL, OPTIONS, work};
     options o = {.output = NULL, .threads = 0, .transitions = 0};
     cv_selection_init(&o.selection);
     const int status = cv_main(&program, &o, argc, argv);

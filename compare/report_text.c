@@ -6,7 +6,7 @@
 #include "compare/format.h"
 #include "compare/table.h"
 
-enum { LIMIT_DIGITS = 12, SI_DIGITS = 7, PARAMETER_DIGITS = 8, CELL_SIZE = 3 * CMP_NUMBER_SIZE };
+enum { LIMIT_DIGITS = 12, SI_DIGITS = 7, PARAMETER_DIGITS = 6 };
 
 static void print_parameters(FILE *out, const cmp_case *c)
 {
@@ -28,23 +28,11 @@ static void print_parameters(FILE *out, const cmp_case *c)
     fputc('\n', out);
 }
 
-/* "1e-10", or "eta_p/eta_b/eta_f" where they are not equal. */
-static const char *format_damping(char out[CELL_SIZE], const cv_params *p)
-{
-    cmp_number_text a, b, c;
-    const char *first = cmp_format_exact(&a, &p->eta_p, PARAMETER_DIGITS);
-    if (cv_number_compare(&p->eta_p, &p->eta_b) == 0 && cv_number_compare(&p->eta_p, &p->eta_f) == 0)
-        snprintf(out, CELL_SIZE, "%s", first);
-    else
-        snprintf(out, CELL_SIZE, "%s/%s/%s", first, cmp_format_exact(&b, &p->eta_b, PARAMETER_DIGITS),
-                 cmp_format_exact(&c, &p->eta_f, PARAMETER_DIGITS));
-    return out;
-}
-
 /* Cells of one combination; the texts the pointers lead to. */
 typedef struct {
     cmp_number_text mass, kg, limit, metres, kilometres, digits;
-    char damping[CELL_SIZE], count[64];
+    cmp_damping_text damping;
+    char count[64];
 } cells;
 
 /* The limit as the semianalytical list has it; the verdict says whether the other list has the same. */
@@ -91,7 +79,7 @@ static void add_mass(cmp_table *t, const cmp_level *level, size_t mass, const cv
         snprintf(c.count, sizeof c.count, "%zu", counts[0]);
     else
         snprintf(c.count, sizeof c.count, "%zu/%zu", counts[0], counts[1]);
-    const char *const damping = format_damping(c.damping, &level->params);
+    const char *const damping = cmp_format_damping(&c.damping, &level->params, PARAMETER_DIGITS);
     const char *const eta_M = cmp_format_exact(&c.mass, &from->mass_ratios[mass], PARAMETER_DIGITS);
     const char *const digits = v->kind == CMP_AGREE ? cmp_format_digits(&c.digits, v->digits) : "-";
     const char *const verdict = cmp_kind_name(v->kind);
@@ -122,7 +110,7 @@ static cv_status print_table(FILE *out, const cmp_case *c, cv_message *why)
 /* Why not: one line for each combination that has something to say beyond "none, 0" in its row. */
 static void print_reasons(FILE *out, const cmp_case *c)
 {
-    char damping[CELL_SIZE];
+    cmp_damping_text damping;
     cmp_number_text mass;
     for (size_t l = 0; l < c->level_count; l++)
         for (size_t m = 0; m < c->from->mass_count; m++) {
@@ -130,7 +118,7 @@ static void print_reasons(FILE *out, const cmp_case *c)
             const cmp_verdict *v = &r->verdict;
             if (v->reason.text[0] != '\0' && (v->kind != CMP_AGREE || r->counts.start > 0))
                 fprintf(out, "  %s, damping %s, eta_M %s: %s\n", cmp_kind_name(v->kind),
-                        format_damping(damping, &c->levels[l].params),
+                        cmp_format_damping(&damping, &c->levels[l].params, PARAMETER_DIGITS),
                         cmp_format_exact(&mass, &c->from->mass_ratios[m], PARAMETER_DIGITS), v->reason.text);
         }
 }
@@ -138,7 +126,8 @@ static void print_reasons(FILE *out, const cmp_case *c)
 static void add_transitions(cmp_table *t, const cmp_run *run, const cmp_level *level, const cv_case *from,
                             size_t mass)
 {
-    char damping[CELL_SIZE], roots[64];
+    cmp_damping_text damping;
+    char roots[64];
     cmp_number_text eta_M, alpha, q;
     for (int m = 0; m < CMP_METHODS; m++) {
         const cmp_list *list = &level->lists[m][mass];
@@ -146,7 +135,7 @@ static void add_transitions(cmp_table *t, const cmp_run *run, const cmp_level *l
             const cmp_transition *x = &list->items[i];
             snprintf(roots, sizeof roots, "%d -> %d", x->below, x->above);
             cmp_table_add(t, (const char *const[]){
-                                 format_damping(damping, &level->params),
+                                 cmp_format_damping(&damping, &level->params, PARAMETER_DIGITS),
                                  cmp_format_exact(&eta_M, &from->mass_ratios[mass], PARAMETER_DIGITS),
                                  run->methods[m]->name,
                                  cmp_format_claimed(&alpha, x->alpha, x->alpha_error, run->file->digits),

@@ -100,7 +100,6 @@ static cv_status count(void *opaque, int *roots, double alpha, size_t mass_count
                        const cv_number *mass_ratios, cv_message *why)
 {
     handle *h = opaque;
-    const dg_probe probe = {h->track, h->follow};
     double smallest = HUGE_VAL;
     cv_status status = CV_OK;
     for (size_t i = 0; i < mass_count; i++)
@@ -108,8 +107,9 @@ static cv_status count(void *opaque, int *roots, double alpha, size_t mass_count
     if (h->curves == NULL)
         status = dg_branch_curves_new(&h->curves, h->track, cv_number_get_double(&h->alpha_min),
                                       cv_number_get_double(&h->alpha_max), why);
+    const dg_probe probe = {h->track, h->follow, h->curves};
     if (status == CV_OK)
-        status = dg_curve_at(&h->curve, &probe, h->curves, alpha, FLOOR * smallest, why);
+        status = dg_curve_at(&h->curve, &probe, alpha, FLOOR * smallest, why);
     for (size_t i = 0; status == CV_OK && i < mass_count; i++)
         status = dg_winding(&roots[i], &h->curve, 1.0 / cv_number_get_double(&mass_ratios[i]), why);
     return status;

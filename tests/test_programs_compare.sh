@@ -4,6 +4,7 @@
 # long double with 64 bits, and the certificates of semianalytic/ then fail, as they should.)
 set -u
 build=${CRITVEL_BUILD:-build}
+case $build in /*) ;; *) build=$(pwd)/$build ;; esac
 compare=$build/critvel-compare
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
@@ -87,6 +88,14 @@ sed 's/mu_b = 35/mu_b = 100/' "$small" >"$folder/outside.ini"
 exits 0 "outside the ranges (31)" "$folder/outside.ini" --case 1 --damping 0.1
 verify "a warning of one line" test "$(wc -l <"$folder/err")" -eq 1
 verify "that names the value" grep -q 'mu_b' "$folder/err"
+
+
+"$compare" efficiency "$small" --case 1 >"$folder/out" 2>"$folder/err"
+verify "efficiency: exit status 0" test $? -eq 0
+verify "efficiency: a row for each method at each damping" test "$(grep -c 'semianalytic\|dgreen' "$folder/out")" -eq 4
+cp "$small" "$folder/efficiency"
+(cd "$folder" && "$compare" ./efficiency --case 1 --damping 0.1 >"$folder/out" 2>"$folder/err")
+verify "a file that is called like a command" grep -q '^verdict' "$folder/out"
 
 echo "Checks: $checks, Failures: $failures"
 [ "$failures" -eq 0 ]
