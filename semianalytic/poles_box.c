@@ -105,11 +105,11 @@ static void choose_radii(sa_box *p, const sa_box *step, int is_real)
                               ldexpl(sa_magnitude(mpc_imagref(p->m)), -precision);
 }
 
-/* Interval Newton around matrix.p, where det_p is near that of the zero; leaves the certified box in matrix.p
- * and the matrix over it. thin and step: scratch. */
-static int enclose(sa_pole_set *set, sa_box *thin, sa_box *step, int is_real)
+/* The free place of the set holds what is not in the matrix: d3 at the midpoint, and the step. */
+int sa_pole_set_certify(sa_pole_set *set, int is_real)
 {
     sa_box_matrix *m = &set->matrix;
+    sa_box *thin = &set->poles[set->count].p, *step = &set->poles[set->count].residue;
     sa_box_matrix_set(m, &set->place);
     sa_box_set(thin, &m->det);
     m->det_p.re_rad = m->det_p.im_rad = 0;
@@ -150,7 +150,7 @@ static int find_near(sa_pole_set *set, double complex start)
         mpfr_set_zero(mpc_imagref(m->p.m), 1);
         iterate(set, 1);
     }
-    if (!enclose(set, &pole->p, &pole->residue, pole->is_real) || !sa_box_matrix_residue(&pole->residue, m))
+    if (!sa_pole_set_certify(set, pole->is_real) || !sa_box_matrix_residue(&pole->residue, m))
         return 0;
     sa_box_set(&pole->p, &m->p);
     pole->side = pole->is_real ? sa_box_matrix_side(m, &set->place) : half_plane(&m->p);

@@ -24,6 +24,11 @@ typedef struct {
 void sa_pole_set_init(sa_pole_set *set, const sa_track *t, mpfr_prec_t precision);
 void sa_pole_set_clear(sa_pole_set *set);
 
+/* Interval Newton around the point matrix.p (no radii), with matrix.det_p near its value there: 1 when a box
+ * that holds exactly one zero of d3 is found; it is then matrix.p, and the matrix is that over the box.
+ * is_real: the box is a piece of the real axis. count < SA_POLES_MAX. */
+int sa_pole_set_certify(sa_pole_set *set, int is_real);
+
 /* Certifies the zeros of d3 near n starting values, at set->place: pairwise disjoint boxes with a known side
  * each. Starting values that lead to an undecided box are left out when skip is 1. 1 when count of the set is
  * the number of all upper poles among them (sa_place.upper_count) and, where all is 1, the number of all

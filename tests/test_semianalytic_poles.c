@@ -227,41 +227,91 @@ START_TEST(certificate_refuses_doubtful_boxes)
 }
 END_TEST
 
-/* Wherever a certificate is given, the zero is in the box: found from many digits. */
-START_TEST(boxes_hold_the_pole)
+/* number of poles of the set within the radii of mid */
+static int poles_within(const sa_pole_set *set, const mpc_t mid, long double re_rad, long double im_rad)
 {
-    int boxes = 0;
-    for (int i = 0; i < 200; i++) {
+    mpc_t gap;
+    int n = 0;
+    mpc_init2(gap, 600);
+    for (int j = 0; j < set->count; j++) {
+        mpc_sub(gap, set->poles[j].p.m, mid, MPC_RNDNN);
+        mpfr_abs(mpc_realref(gap), mpc_realref(gap), MPFR_RNDN);
+        mpfr_abs(mpc_imagref(gap), mpc_imagref(gap), MPFR_RNDN);
+        n += mpfr_cmp_ld(mpc_realref(gap), re_rad) <= 0 && mpfr_cmp_ld(mpc_imagref(gap), im_rad) <= 0;
+    }
+    mpc_clear(gap);
+    return n;
+}
+
+/* A point between exactly on and far from pole k. */
+static double complex near_pole(const sa_pole_set *set, int k)
+{
+    const mpc_ptr at = (const mpc_ptr)set->poles[k].p.m;
+    double complex p = CMPLX(mpfr_get_d(mpc_realref(at), MPFR_RNDN), mpfr_get_d(mpc_imagref(at), MPFR_RNDN));
+    double phase = 2 * M_PI * gsl_rng_uniform(rng);
+    return p * (1 + log_uniform(rng, 1e-16, 1) * CMPLX(cos(phase), sin(phase)));
+}
+
+/* Wherever a certificate is given, exactly one zero is in the box, also when Newton's iteration has not
+ * converged. */
+START_TEST(boxes_hold_one_pole)
+{
+    int certified = 0, refused = 0;
+    for (int i = 0; i < 300; i++) {
         place x;
         if (place_make(&x, i))
             for (int k = 0; k < x.set.count; k++) {
                 sa_point m;
                 sa_pole pole;
-                const mpc_ptr at = (const mpc_ptr)x.set.poles[k].p.m;
+                mpc_t mid;
                 double alpha = cv_number_get_double(&x.alpha), q = cv_number_get_double(&x.q);
-                double complex p =
-                    CMPLX(mpfr_get_d(mpc_realref(at), MPFR_RNDN), mpfr_get_d(mpc_imagref(at), MPFR_RNDN));
-                p *= 1 + 1e-9 * (gsl_rng_uniform(rng) - 0.5);
-                if (!sa_poles_newton(&p, &m, x.track, alpha, q) ||
-                    !sa_poles_enclose(&pole, &m, x.track, alpha, q))
+                sa_matrix_point(&m, x.track, alpha, q, near_pole(&x.set, k));
+                if (!sa_poles_enclose(&pole, &m, x.track, alpha, q)) {
+                    refused++;
                     continue;
-                int inside = 0; /* perhaps Newton went to a neighbour */
-                for (int j = 0; j < x.set.count; j++) {
-                    mpc_t gap;
-                    mpc_init2(gap, 255);
-                    mpc_set_d_d(gap, -pole.box.re, -pole.box.im, MPC_RNDNN);
-                    mpc_add(gap, gap, x.set.poles[j].p.m, MPC_RNDNN);
-                    inside += fabs(mpfr_get_d(mpc_realref(gap), MPFR_RNDA)) <= pole.box.re_rad &&
-                              fabs(mpfr_get_d(mpc_imagref(gap), MPFR_RNDA)) <= pole.box.im_rad;
-                    mpc_clear(gap);
                 }
-                ck_assert_int_eq(inside, 1);
-                boxes++;
+                mpc_init2(mid, 53);
+                mpc_set_d_d(mid, pole.box.re, pole.box.im, MPC_RNDNN);
+                ck_assert_int_eq(poles_within(&x.set, mid, pole.box.re_rad, pole.box.im_rad), 1);
+                mpc_clear(mid);
+                certified++;
             }
         place_clear(&x);
     }
-    printf("boxes: %d certified in double\n", boxes);
-    ck_assert_int_gt(boxes, 1000);
+    printf("boxes in double: %d certified, %d refused\n", certified, refused);
+    ck_assert(certified > 500 && refused > 100);
+}
+END_TEST
+
+START_TEST(boxes_of_many_digits_hold_one_pole)
+{
+    int certified = 0, refused = 0;
+    for (int i = 0; i < 300; i++) {
+        place x;
+        if (place_make(&x, i)) {
+            sa_pole_set set;
+            sa_pole_set_init(&set, x.track, 127);
+            sa_place_set(&set.place, x.track, &x.alpha, &x.q);
+            for (int k = 0; k < x.set.count; k++) {
+                double complex p = near_pole(&x.set, k);
+                mpc_set_d_d(set.matrix.p.m, creal(p), cimag(p), MPC_RNDNN);
+                set.matrix.p.re_rad = set.matrix.p.im_rad = 0;
+                sa_box_matrix_set(&set.matrix, &set.place);
+                sa_box_matrix_slope(&set.matrix, &set.place);
+                if (sa_pole_set_certify(&set, 0)) {
+                    const sa_box *box = &set.matrix.p;
+                    ck_assert_int_eq(poles_within(&x.set, box->m, box->re_rad, box->im_rad), 1);
+                    certified++;
+                } else {
+                    refused++;
+                }
+            }
+            sa_pole_set_clear(&set);
+        }
+        place_clear(&x);
+    }
+    printf("boxes at 127 bits: %d certified, %d refused\n", certified, refused);
+    ck_assert(certified > 500 && refused > 100);
 }
 END_TEST
 
@@ -277,7 +327,8 @@ int main(void)
     tcase_add_test(tests, number_of_upper_poles);
     tcase_add_test(tests, poles_of_a_load_at_rest);
     tcase_add_test(tests, certificate_refuses_doubtful_boxes);
-    tcase_add_test(tests, boxes_hold_the_pole);
+    tcase_add_test(tests, boxes_hold_one_pole);
+    tcase_add_test(tests, boxes_of_many_digits_hold_one_pole);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
