@@ -68,21 +68,22 @@ static slong roots_accuracy(const workspace *w)
 }
 
 /* All roots isolated, and the real ones known as real where the coefficients are real. acb_poly_find_roots
- * stops as soon as the roots are isolated: it is called again from its own result while that still helps. */
+ * makes a limited number of iterations: it is called again from its own result while that helps. */
 static int isolate(workspace *w, slong prec)
 {
-    slong before = 0, bits = -ARF_PREC_EXACT;
+    slong bits = 0, found = 0;
     w->degree = acb_poly_degree(w->d3.v);
     if (w->degree < 1 || w->degree > DEGREE)
         return -1;
     for (int pass = 0; pass < MAX_PASSES && bits < prec - SPARE_BITS; pass++) {
-        before = bits;
-        if (acb_poly_find_roots(w->roots, w->d3.v, pass == 0 ? NULL : w->roots, 0, prec) != w->degree)
-            return -1;
-        bits = roots_accuracy(w);
-        if (pass > 0 && bits < before + 4)
+        slong before = bits;
+        found = acb_poly_find_roots(w->roots, w->d3.v, pass == 0 ? NULL : w->roots, 0, prec);
+        bits = found == w->degree ? roots_accuracy(w) : 0;
+        if (before > 0 && bits < before + 4)
             break;
     }
+    if (found != w->degree)
+        return -1;
     if (w->undamped && !acb_poly_validate_real_roots(w->roots, w->d3.v, prec))
         return -1;
     return 0;
