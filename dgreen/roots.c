@@ -29,13 +29,16 @@ static inline sample evaluate(const double *re, const double *im, int degree, in
 }
 
 /* The reciprocal belongs in the last slot when the leading coefficient is small enough for one root, and only
- * one, to be far out: |c8 c6| << |c7|^2. */
+ * one, to be far out: |c8/c7| times the bound 2 max |c_(7-k)/c7|^(1/k) of the other seven is small. */
 static int wants_far(const dg_operator *op)
 {
     if (op->degree != DG_DEGREE || !(fabs(op->relative_a0) < 0.01))
         return 0;
-    const double second = hypot(op->re[6], op->im[6]), first = hypot(op->re[7], op->im[7]);
-    return hypot(op->re[8], op->im[8]) * second < 0.05 * first * first;
+    const double first = hypot(op->re[7], op->im[7]);
+    double reach = 0;
+    for (int k = 1; k <= 7; k++)
+        reach = fmax(reach, pow(hypot(op->re[7 - k], op->im[7 - k]) / first, 1.0 / k));
+    return hypot(op->re[8], op->im[8]) * 2 * reach < 0.1 * first;
 }
 
 static void invert(double *re, double *im)
