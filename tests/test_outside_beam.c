@@ -1,9 +1,9 @@
-/* A check from outside: the moving mass on a beam cut off at +-40 and discretised by finite differences, in
+/* A check from outside: the moving mass on a beam cut off at +-80 and discretised by finite differences, in
  * the moving frame and straight from (1) in dimensionless form, as an eigenvalue problem in qbar. Its
  * eigenvalue must be the root of the characteristic equation z = 1, (29)-(30), and not of the printed form of
  * (13), pi - 2 eta_M q^2 K = 0, which is z = 1/4.
  *
- * Case 1, eta = 0.05, eta_M = 100, alpha = 0.5. The eigenvalue lies a little to the left of the imaginary
+ * In case 1, eta = 0.05, eta_M = 100, alpha = 0.5, it lies a little to the left of the imaginary
  * axis, so zeta is continued there from Re qbar > 0 with the roots lambda that have Re lambda > 0 over there;
  * two of them have changed sides on the way. (The sum over Re lambda > 0 on the spot is 1 at qbar = -0.002726
  * + 0.209815i, 6e-4 off: no eigenvalue.) */
@@ -13,9 +13,10 @@
 #include <stdlib.h>
 
 #include "dgreen/roots.h"
+#include "dgreen/z.h"
 #include "tests/dgreen_points.h"
 
-static const double ALPHA = 0.5, MASS = 100, LENGTH = 40;
+static const double LENGTH = 80;
 
 /* Per node: w, u_s, s u_s, u_b, s u_b with s = d/dtau - alpha d/dxi. Nothing moves ahead of the mass, at xi =
  * +40; sleepers and ballast, which only pass by, are differenced towards it. */
@@ -23,7 +24,7 @@ enum { W, US, VS, UB, VB, UNKNOWNS, BAND = 2 * UNKNOWNS + UNKNOWNS - 1, HEIGHT =
 
 typedef struct {
     int nodes;
-    double h;
+    double h, alpha, mass;
     double complex qbar;
     const dg_track *track;
     lapack_complex_double *band; /* LAPACK band storage */
@@ -41,36 +42,36 @@ static void put(mesh *m, int row, int node, int unknown, double complex value)
 static void put_rate(mesh *m, int row, int node, int unknown, double complex factor)
 {
     put(m, row, node, unknown, factor * m->qbar);
-    put(m, row, node + 1, unknown, -factor * ALPHA / (2 * m->h));
-    put(m, row, node - 1, unknown, factor * ALPHA / (2 * m->h));
+    put(m, row, node + 1, unknown, -factor * m->alpha / (2 * m->h));
+    put(m, row, node - 1, unknown, factor * m->alpha / (2 * m->h));
 }
 
 /* the same, differenced towards +xi, of second order */
 static void put_passing_rate(mesh *m, int row, int node, int unknown, double complex factor)
 {
-    put(m, row, node, unknown, factor * (m->qbar + 3 * ALPHA / (2 * m->h)));
-    put(m, row, node + 1, unknown, -factor * 4 * ALPHA / (2 * m->h));
-    put(m, row, node + 2, unknown, factor * ALPHA / (2 * m->h));
+    put(m, row, node, unknown, factor * (m->qbar + 3 * m->alpha / (2 * m->h)));
+    put(m, row, node + 1, unknown, -factor * 4 * m->alpha / (2 * m->h));
+    put(m, row, node + 2, unknown, factor * m->alpha / (2 * m->h));
 }
 
 static void put_beam(mesh *m, int j)
 {
     const int row = j * UNKNOWNS + W;
     const double h2 = m->h * m->h, bending = 1 / (4 * h2 * h2),
-                 second = (m->track->eta_N + ALPHA * ALPHA) / h2;
+                 second = (m->track->eta_N + m->alpha * m->alpha) / h2;
     const double binomial[5] = {1, -4, 6, -4, 1};
     for (int k = -2; k <= 2; k++)
         put(m, row, j + k, W, bending * binomial[k + 2]);
     for (int k = -1; k <= 1; k++)
         put(m, row, j + k, W, second * (k == 0 ? -2 : 1));
     put(m, row, j, W, m->qbar * m->qbar + m->track->kappa_p);
-    put(m, row, j + 1, W, -ALPHA * m->qbar / m->h);
-    put(m, row, j - 1, W, ALPHA * m->qbar / m->h);
+    put(m, row, j + 1, W, -m->alpha * m->qbar / m->h);
+    put(m, row, j - 1, W, m->alpha * m->qbar / m->h);
     put_rate(m, row, j, W, 2 * m->track->eta_p);
     put(m, row, j, VS, -2 * m->track->eta_p);
     put(m, row, j, US, -m->track->kappa_p);
     if (j == m->nodes / 2)
-        put(m, row, j, W, MASS * m->qbar * m->qbar / m->h);
+        put(m, row, j, W, m->mass * m->qbar * m->qbar / m->h);
 }
 
 static void put_layers(mesh *m, int j)
@@ -137,11 +138,11 @@ static double complex inverse_step(mesh *m, double complex qbar, double complex 
     return qbar - 1 / growth;
 }
 
-static double complex eigenvalue(const dg_track *t, double h)
+static double complex eigenvalue(const dg_track *t, double alpha, double mass, double complex start, double h)
 {
-    mesh m = {2 * (int)(LENGTH / h) + 1, h, 0, t, NULL};
+    mesh m = {2 * (int)(LENGTH / h) + 1, h, alpha, mass, 0, t, NULL};
     const size_t n = (size_t)UNKNOWNS * (size_t)m.nodes;
-    double complex qbar = CMPLX(0, 0.2), *u = calloc(n, sizeof *u), last = 0;
+    double complex qbar = start, *u = calloc(n, sizeof *u), last = 0;
     m.band = malloc(sizeof *m.band * HEIGHT * n);
     ck_assert(u != NULL && m.band != NULL);
     for (size_t i = 0; i < n; i++)
@@ -154,6 +155,12 @@ static double complex eigenvalue(const dg_track *t, double h)
     free(m.band);
     free(u);
     return qbar;
+}
+
+/* Extrapolated from two meshes: the error is of second order in h. */
+static double complex extrapolated(const dg_track *t, double alpha, double mass, double complex start)
+{
+    return (4 * eigenvalue(t, alpha, mass, start, 0.01) - eigenvalue(t, alpha, mass, start, 0.02)) / 3;
 }
 
 /* The sum over the roots marked, by products of differences. */
@@ -174,6 +181,8 @@ static double complex zeta_of(const dg_operator *op, const dg_roots *roots, cons
     return 4 * CMPLX(0, 1) * qbar * qbar * sum;
 }
 
+static const double ALPHA = 0.5, MASS = 100, FROM_RIGHT = 0.1;
+
 /* Roots at qbar, continued along a straight line from qbar + shift; those with Re lambda > 0 there are
  * marked. */
 static double complex continued_zeta(const dg_track *t, double complex qbar, double shift)
@@ -193,8 +202,6 @@ static double complex continued_zeta(const dg_track *t, double complex qbar, dou
     return zeta_of(&op, &roots, right, qbar);
 }
 
-static const double FROM_RIGHT = 0.1;
-
 /* Root of eta_M zeta = value near qbar, by the secant rule. */
 static double complex characteristic_root(const dg_track *t, double complex qbar, double value)
 {
@@ -209,14 +216,13 @@ static double complex characteristic_root(const dg_track *t, double complex qbar
     return qbar;
 }
 
-START_TEST(eigenvalue_of_the_discretised_beam)
+START_TEST(stable_eigenvalue)
 {
     dg_track *t = track_of("6 35 300 7 0.05 0.05 0.05 0 0");
-    const double complex coarse = eigenvalue(t, 0.02), fine = eigenvalue(t, 0.01);
-    const double complex limit = (4 * fine - coarse) / 3; /* the error is of second order in h */
+    const double complex limit = extrapolated(t, ALPHA, MASS, CMPLX(0, 0.2));
     const double complex root = characteristic_root(t, CMPLX(-0.0027, 0.2098), 1);
-    printf("eigenvalue %.7f %+.7fi (h = 0.02: %.7f %+.7fi), root of z = 1: %.7f %+.7fi\n", creal(limit),
-           cimag(limit), creal(coarse), cimag(coarse), creal(root), cimag(root));
+    printf("eigenvalue %.7f %+.7fi, root of z = 1: %.7f %+.7fi\n", creal(limit), cimag(limit), creal(root),
+           cimag(root));
     fflush(stdout);
     ck_assert(cabs(MASS * continued_zeta(t, root, FROM_RIGHT) - 1) < 1e-10);
     ck_assert(cabs(limit - root) < 2e-6);
@@ -228,12 +234,40 @@ START_TEST(eigenvalue_of_the_discretised_beam)
 }
 END_TEST
 
+/* Unstable mass: no continuation needed, zeta as the program has it. */
+START_TEST(unstable_eigenvalues)
+{
+    const struct {
+        const char *track;
+        double alpha, mass;
+        double complex start;
+    } rows[] = {{"6 35 300 7 0.05 0.05 0.05 0 0", 0.9, 30, CMPLX(0.2, 0.7)},
+                {"6 35 300 7 0.05 0.05 0.05 0 0", 1.4, 171, CMPLX(0.06, 0.8)},
+                {"6 5 0.03 3 0.05 0.05 0.05 0 0", 0.7, 30, CMPLX(0.03, 0.15)}};
+    dg_follow *follow;
+    ck_assert_int_eq(dg_follow_new(&follow, NULL), CV_OK);
+    for (int i = 0; i < 3; i++) {
+        dg_track *t = track_of(rows[i].track);
+        const double complex limit = extrapolated(t, rows[i].alpha, rows[i].mass, rows[i].start);
+        dg_value v;
+        ck_assert_int_eq(dg_zeta_double(&v, follow, t, rows[i].alpha, limit), CV_OK);
+        printf("eigenvalue %.7f %+.7fi, z there: %.7f %+.7fi\n", creal(limit), cimag(limit),
+               rows[i].mass * v.re, rows[i].mass * v.im);
+        fflush(stdout);
+        ck_assert(creal(limit) > 0.01 && cabs(rows[i].mass * CMPLX(v.re, v.im) - 1) < 5e-4);
+        dg_track_free(t);
+    }
+    dg_follow_free(follow);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("outside beam");
     TCase *c = tcase_create("beam");
     tcase_set_timeout(c, 30);
-    tcase_add_test(c, eigenvalue_of_the_discretised_beam);
+    tcase_add_test(c, stable_eigenvalue);
+    tcase_add_test(c, unstable_eigenvalues);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
