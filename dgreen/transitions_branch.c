@@ -121,7 +121,10 @@ static cv_status found(const dg_sample *low, const dg_sample *high, void *contex
     if (status != CV_OK)
         return status;
     const int rises = high->value >= 0; /* the crossing moves beyond 1/eta_M */
-    const dg_find find = {m.alpha, m.at.q, m.at.dq, m.at.dx, m.at.scale, (rises ? 2 : -2) * m.at.direction};
+    const double special = dg_special_distance(b->sweep->probe.branches, m.alpha);
+    const double reach = fmin(fmax(special, DBL_EPSILON * m.alpha), fabs(m.at.x / m.at.dx));
+    const int change = (rises ? 2 : -2) * m.at.direction;
+    const dg_find find = {m.alpha, m.at.q, m.at.dq, m.at.dx, m.at.scale, reach, change};
     return dg_sweep_add(b->sweep, b->mass, &find);
 }
 

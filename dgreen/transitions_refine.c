@@ -11,7 +11,7 @@ enum { MORE_BITS = 64, MAX_EXTRA_BITS = 4096, GUARD_DIGITS = 8, INNER_ROUNDS = 8
 /* First and largest half-width of the brackets, in units of the distance over which zeta changes. The inner
  * search knows its root ever better: from double; from one root nearby and the slope in double; from two. */
 static const double FIRST_WIDTH = 1e-8, LAST_WIDTH = 0.2;
-static const double INNER_WIDTH[3] = {1e-7, 1e-11, 1e-16};
+static const double INNER_WIDTH[3] = {1e-7, 1e-11, 1e-16}, SLOPE_ERROR = 1e-4;
 
 typedef struct {
     const dg_track *track;
@@ -96,6 +96,24 @@ static void expect(refiner *r)
     mpfr_add(r->q_centre, r->q_centre, r->q_known[0], RND);
 }
 
+/* How wrong that may be */
+static double inner_width(const refiner *r)
+{
+    const dg_find *f = r->find;
+    mpfr_t step;
+    double distance[2];
+    mpfr_init2(step, 53);
+    for (int i = 0; i < 2; i++) {
+        mpfr_sub(step, r->alpha, r->alpha_known[i], RND);
+        distance[i] = fabs(mpfr_get_d(step, RND));
+    }
+    mpfr_clear(step);
+    double error = SLOPE_ERROR * fabs(f->dq) * distance[0];
+    if (r->known == 2)
+        error = fabs(f->dq) * distance[0] * distance[1] / f->reach;
+    return fmin(fmax(INNER_WIDTH[r->known] * f->scale, error), LAST_WIDTH * f->scale);
+}
+
 static void remember(refiner *r)
 {
     mpfr_swap(r->alpha_known[0], r->alpha_known[1]);
@@ -113,8 +131,7 @@ static cv_status excess(dg_end *e, void *context)
     const double scale = r->find->scale;
     r->alpha = e->at;
     expect(r);
-    cv_status status =
-        dg_bracket_open(&r->inner, r->q_centre, INNER_WIDTH[r->known] * scale, LAST_WIDTH * scale);
+    cv_status status = dg_bracket_open(&r->inner, r->q_centre, inner_width(r), LAST_WIDTH * scale);
     e->sign = 0;
     for (int i = 0; i < INNER_ROUNDS && status == CV_OK && e->sign == 0; i++) {
         status = dg_bracket_close(&r->inner);
@@ -154,7 +171,7 @@ static void refiner_init(refiner *r, const dg_track *track, dg_effort *effort, c
     dg_bracket_init(&r->inner, r->bits, imaginary_part, r);
     dg_bracket_init(&r->outer, r->bits, excess, r);
     r->inner.scale = find->scale;
-    r->outer.scale = find->scale / fmax(fabs(find->dq), 1e-3);
+    r->outer.scale = find->reach;
     mpfr_set_ui(r->outer.tolerance, 10, RND);
     mpfr_pow_si(r->outer.tolerance, r->outer.tolerance, -digits, RND);
     mpfr_div_ui(r->outer.tolerance, r->outer.tolerance, 4, RND);

@@ -10,6 +10,7 @@ typedef struct {
     double alpha, q;
     double dq, dx; /* along Im zeta = 0 */
     double scale;  /* distance in q over which zeta changes */
+    double reach;  /* distance in alpha over which x changes */
     int change;    /* of the number of unstable roots as alpha grows: +2 or -2 */
 } dg_find;
 
