@@ -127,6 +127,28 @@ static void set_entries(dg_mp_operator *op, const dg_constants *k, mpfr_srcptr a
     mpc_add_fr(op->foundation.c[2], op->foundation.c[2], k->value[DG_ETA_S], CRND);
 }
 
+static void round_coefficients(double *re, double *im, const dg_mp_polynomial *p, int degree)
+{
+    for (int k = 0; k <= degree; k++) {
+        re[k] = mpfr_get_d(mpc_realref(p->c[k]), RND);
+        im[k] = mpfr_get_d(mpc_imagref(p->c[k]), RND);
+    }
+}
+
+/* The sizes come from double, all else from the exact coefficients: a0 may be 0 in double arithmetic only. */
+static void round_operator(dg_mp_operator *op, const dg_constants *k, mpfr_srcptr alpha)
+{
+    round_coefficients(op->rounded.re, op->rounded.im, &op->delta, DG_DEGREE);
+    round_coefficients(op->rounded.r_re, op->rounded.r_im, &op->r, DG_R_DEGREE);
+    if (mpfr_zero_p(alpha))
+        return;
+    mpfr_sqr(op->coefficient, alpha, RND);
+    mpfr_mul(op->coefficient, op->coefficient, k->value[DG_MU_B], RND);
+    const double sum = mpfr_get_d(op->coefficient, RND) + mpfr_get_d(k->value[DG_ETA_S], RND);
+    mpfr_sub(op->coefficient, op->coefficient, k->value[DG_ETA_S], RND);
+    op->rounded.relative_a0 = mpfr_get_d(op->coefficient, RND) / sum;
+}
+
 void dg_mp_operator_set(dg_mp_operator *op, const dg_track *track, const dg_constants *constants,
                         mpfr_srcptr alpha, mpc_srcptr qbar)
 {
@@ -151,4 +173,5 @@ void dg_mp_operator_set(dg_mp_operator *op, const dg_track *track, const dg_cons
     for (int i = 0; i <= DG_DEGREE; i++)
         mpc_mul_ui(op->delta.c[i], op->delta.c[i], 4, CRND);
     add_product(op, &op->delta, &op->beam, 4, &op->r, 4);
+    round_operator(op, constants, alpha);
 }

@@ -15,7 +15,7 @@ typedef struct {
 typedef struct {
     mpfr_prec_t precision;
     dg_mp_polynomial delta, r;
-    dg_operator rounded; /* the same in double: sizes, degree, starting values */
+    dg_operator rounded; /* the coefficients rounded to double, with sizes and degree */
     /* scratch */
     dg_mp_polynomial beam, pad, sleeper, ballast, foundation, c, inner;
     mpc_t w, w2, product;

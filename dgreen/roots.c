@@ -30,7 +30,7 @@ static inline sample evaluate(const double *re, const double *im, int degree, in
 
 /* The reciprocal belongs in the last slot when the leading coefficient is small enough for one root, and only
  * one, to be far out: |c8/c7| times the bound 2 max |c_(7-k)/c7|^(1/k) of the other seven is small. */
-static int wants_far(const dg_operator *op)
+int dg_roots_far_form(const dg_operator *op)
 {
     if (op->degree != DG_DEGREE || !(fabs(op->relative_a0) < 0.01))
         return 0;
@@ -73,7 +73,7 @@ static void start_far(dg_roots *r, const dg_operator *op)
 
 static void choose_form(dg_roots *r, const dg_operator *op)
 {
-    const int far = wants_far(op);
+    const int far = dg_roots_far_form(op);
     if (far == r->far)
         return;
     if (far) {
@@ -87,7 +87,7 @@ static void choose_form(dg_roots *r, const dg_operator *op)
 
 cv_status dg_roots_cold(dg_roots *roots, const dg_operator *op)
 {
-    roots->far = wants_far(op);
+    roots->far = dg_roots_far_form(op);
     roots->count = op->degree;
     const int n = op->degree - roots->far;
     lapack_complex_double companion[DG_DEGREE * DG_DEGREE] = {0}, eigenvalues[DG_DEGREE], none;

@@ -32,6 +32,9 @@ typedef struct {
     double field_error[DG_DEGREE];                         /* absolute */
 } dg_discs;
 
+/* 1: the operator's roots are to be kept with a far root. */
+int dg_roots_far_form(const dg_operator *op);
+
 /* Eigenvalues of the balanced companion matrix (LAPACK zhseqr), not polished. CV_UNDECIDED where LAPACK does
  * not converge or the coefficients overflow. */
 cv_status dg_roots_cold(dg_roots *roots, const dg_operator *op);

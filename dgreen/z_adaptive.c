@@ -25,16 +25,6 @@ static void round_value(dg_value *value, const dg_mp_value *v)
     value->right_count = v->right_count;
 }
 
-/* Roots to start from: those of the double attempt where it found any. */
-static cv_status find_start(dg_follow *f, const dg_track *track, double alpha, double complex qbar)
-{
-    if (f->warm)
-        return CV_OK;
-    dg_operator op;
-    dg_operator_set(&op, track, alpha, qbar);
-    return dg_roots_cold(&f->roots, &op);
-}
-
 static cv_status climb(dg_value *value, dg_follow *f, const dg_track *track, int rung)
 {
     if (f->mp[rung] == NULL && dg_mp_new(&f->mp[rung], dg_ladder[rung], NULL) != CV_OK)
@@ -42,8 +32,8 @@ static cv_status climb(dg_value *value, dg_follow *f, const dg_track *track, int
     if (f->counters.largest_precision < dg_ladder[rung])
         f->counters.largest_precision = (int)dg_ladder[rung];
     dg_mp_value v;
-    const cv_status status =
-        dg_mp_zeta(&v, f->mp[rung], track, &track->ladder[rung], f->alpha, f->qbar, &f->roots);
+    const cv_status status = dg_mp_zeta(&v, f->mp[rung], track, &track->ladder[rung], f->alpha, f->qbar,
+                                        f->warm ? &f->roots : NULL);
     if (status == CV_OK)
         round_value(value, &v);
     return status;
@@ -57,9 +47,6 @@ cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *t
     if (status == CV_OK && good_enough(value, tol_re, tol_im))
         return CV_OK;
     if (status != CV_OK && status != CV_UNDECIDED)
-        return status;
-    status = find_start(follow, track, alpha, qbar);
-    if (status != CV_OK)
         return status;
     follow->counters.above_double++;
     mpfr_set_d(follow->alpha, alpha, MPFR_RNDN);

@@ -1,5 +1,4 @@
 /* dg_zeta_mp and dg_zeta_digits: one point, from nothing, to any number of digits. */
-#include <complex.h>
 #include <math.h>
 
 #include "dgreen/z_mp.h"
@@ -8,20 +7,6 @@ static const mpfr_rnd_t RND = MPFR_RNDN;
 static const mpc_rnd_t CRND = MPC_RNDNN;
 
 enum { EXTRA_BITS = 4096, FIRST_BITS = 127 };
-
-/* Roots in double to start from: polished where double can. */
-static cv_status find_start(dg_roots *start, const dg_track *track, mpfr_srcptr alpha, mpc_srcptr qbar)
-{
-    dg_operator op;
-    const double complex point =
-        CMPLX(mpfr_get_d(mpc_realref(qbar), RND), mpfr_get_d(mpc_imagref(qbar), RND));
-    dg_operator_set(&op, track, mpfr_get_d(alpha, RND), point);
-    const cv_status status = dg_roots_cold(start, &op);
-    dg_roots polished = *start;
-    if (status == CV_OK && dg_roots_polish_cold(&polished, &op) == CV_OK)
-        *start = polished;
-    return status;
-}
 
 /* A point and the result there, at one precision */
 typedef struct {
@@ -50,18 +35,14 @@ static void point_clear(point *p)
 
 static cv_status evaluate(point *p, const dg_track *track)
 {
-    dg_roots start;
-    cv_status status = find_start(&start, track, p->alpha, p->qbar);
-    if (status != CV_OK)
-        return status;
     dg_mp *w;
-    status = dg_mp_new(&w, p->precision, NULL);
+    cv_status status = dg_mp_new(&w, p->precision, NULL);
     if (status != CV_OK)
         return status;
     dg_constants constants;
     dg_constants_init(&constants, track, p->precision);
     dg_mp_value v;
-    status = dg_mp_zeta(&v, w, track, &constants, p->alpha, p->qbar, &start);
+    status = dg_mp_zeta(&v, w, track, &constants, p->alpha, p->qbar, NULL);
     if (status == CV_OK) {
         mpc_set_fr_fr(p->zeta, v.re, v.im, CRND);
         mpfr_set(p->error[0], v.re_error, MPFR_RNDU);

@@ -1,6 +1,5 @@
 #include "dgreen/z_mp.h"
 
-#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -92,12 +91,32 @@ static int count_is_wrong(const dg_mp *w)
     return right != (op->relative_a0 > 0 ? 6 : 5);
 }
 
+/* Roots in double from nothing: polished where double can. */
+static cv_status cold_start(dg_roots *start, const dg_operator *op)
+{
+    const cv_status status = dg_roots_cold(start, op);
+    dg_roots polished = *start;
+    if (status == CV_OK && dg_roots_polish_cold(&polished, op) == CV_OK)
+        *start = polished;
+    return status;
+}
+
+static cv_status find_roots(dg_mp *w, const dg_roots *start, int on_axis)
+{
+    const dg_operator *op = &w->op.rounded;
+    if (start != NULL && start->count == op->degree && start->far == dg_roots_far_form(op))
+        return dg_mp_roots_find(&w->roots, &w->op, start, on_axis);
+    dg_roots cold;
+    const cv_status status = cold_start(&cold, op);
+    return status == CV_OK ? dg_mp_roots_find(&w->roots, &w->op, &cold, on_axis) : status;
+}
+
 cv_status dg_mp_zeta(dg_mp_value *value, dg_mp *w, const dg_track *track, const dg_constants *constants,
                      mpfr_srcptr alpha, mpc_srcptr qbar, const dg_roots *start)
 {
     const int undamped = !track->damped && mpfr_zero_p(mpc_realref(qbar));
     dg_mp_operator_set(&w->op, track, constants, alpha, qbar);
-    cv_status status = dg_mp_roots_find(&w->roots, &w->op, start, undamped);
+    cv_status status = find_roots(w, start, undamped);
     if (status == CV_OK)
         status = undamped ? dg_mp_residues_sum_undamped(&w->sums, &w->op, &w->roots, alpha)
                           : dg_mp_residues_sum(&w->sums, &w->op, &w->roots);

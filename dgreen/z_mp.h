@@ -35,8 +35,8 @@ typedef struct {
     int right_count;                        /* as in dg_value */
 } dg_mp_value;
 
-/* zeta at (alpha, qbar). start: roots in double near the right ones. constants: of the workspace's precision.
- */
+/* zeta at (alpha, qbar). start: roots in double near the right ones, or NULL. constants: of the workspace's
+ * precision. */
 cv_status dg_mp_zeta(dg_mp_value *value, dg_mp *w, const dg_track *track, const dg_constants *constants,
                      mpfr_srcptr alpha, mpc_srcptr qbar, const dg_roots *start);
 
