@@ -4,7 +4,7 @@
 
 /* Steps of the differences relative to the distances over which zeta changes: in q, and in alpha. Their
  * squares are the relative errors of central differences. */
-static const double Q_STEP = 1e-4, ALPHA_STEP = 1e-3;
+static const double Q_STEP = 1e-4, ALPHA_STEP = 0.02;
 
 static int is_certain(const dg_value *v)
 {

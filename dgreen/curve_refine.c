@@ -6,8 +6,9 @@
 enum { ROUNDS = 60, MAX_NODES = 100000 };
 /* A dip is left alone when the parabola through it stays above this part of its value. */
 static const double DIP_CLEARANCE = 0.85;
-/* ... and its neighbours are not higher than this many times: otherwise the parabola means little. */
-static const double DIP_RATIO = 6;
+/* A node is suspicious when the product of its neighbours' values exceeds its square by this factor: among
+ * nodes at geometric distances that is 1 for any power law. */
+static const double KINK = 3;
 /* cos of the largest turning of the polyline that is accepted next to the real axis: 60 degrees */
 static const double COS_TURN = 0.5;
 /* Part of the interval below which the doubles end */
@@ -18,18 +19,20 @@ static int positive(const dg_node *n)
     return n->im > 0;
 }
 
-/* |Im zeta| smallest at b, and perhaps zero beside it; then *lowest is where the parabola through the three
- * has its minimum */
+/* |Im zeta| of one sign at a, b and c, and perhaps zero beside b: it falls short of the power law through its
+ * neighbours, or the parabola through the three, whose lowest point is *lowest, goes down. */
 static int dip_may_hide(double *lowest, const dg_node *a, const dg_node *b, const dg_node *c)
 {
     const double fa = fabs(a->im), fb = fabs(b->im), fc = fabs(c->im);
-    if (positive(a) != positive(b) || positive(b) != positive(c) || !(fb <= fa && fb <= fc))
+    if (positive(a) != positive(b) || positive(b) != positive(c))
         return 0;
+    if (!(fb <= fa && fb <= fc))
+        return fa * fc > KINK * fb * fb;
     const double h = b->q - a->q, k = c->q - b->q, left = (fb - fa) / h, right = (fc - fb) / k;
     const double slope = (left * k + right * h) / (h + k), curvature = (right - left) / (h + k);
     *lowest = curvature > 0 ? b->q - slope / (2 * curvature) : b->q;
     const double least = curvature > 0 ? fb - slope * slope / (4 * curvature) : fb;
-    return least < DIP_CLEARANCE * fb || fmax(fa, fc) > DIP_RATIO * fb;
+    return least < DIP_CLEARANCE * fb || fa * fc > KINK * fb * fb;
 }
 
 /* The polyline turns at b, so near the real axis that it may pass a point of it on the wrong side */
@@ -127,9 +130,8 @@ static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_mess
     cv_status status = dg_curve_cross(&x, p, &c->at, &a, &b);
     if (status != CV_OK)
         return cv_fail(why, status, "crossing at alpha = %.17g, q = %.17g not resolved", c->at.alpha, x.q);
-    if (x.x < c->x_floor)
-        return CV_OK;
-    status = push_crossing(c, &x, why);
+    if (x.x >= c->x_floor)
+        status = push_crossing(c, &x, why);
     if (status == CV_OK && x.q_low > a.q)
         status = dg_curve_add(c, p, x.q_low, why);
     if (status == CV_OK && x.q_high < b.q)
