@@ -25,44 +25,48 @@ void sa_sweep_predict(double complex p[SA_UPPER_MAX], const sa_sweep *s, double 
         p[i] = s->p[i] + s->slopes[i].p_alpha * (alpha - s->alpha) + s->slopes[i].p_q * (q - s->q);
 }
 
-/* Improves n starting values to certified upper poles and remembers them; 0 when one of the steps fails. */
-static int certify(sa_pole *poles, sa_sweep *state, double complex *start, int n, const sa_track *t,
-                   double alpha, double complex q)
+typedef enum { CERTIFIED, UNBOUNDED, LOST } outcome;
+
+/* Improves n starting values to upper poles, remembers and encloses them. LOST: Newton's iteration does not
+ * lead to n different upper poles, other starting values may; UNBOUNDED: it seems to, but double precision
+ * cannot prove it, and the remembered poles may serve as starting values in more. */
+static outcome certify(sa_pole *poles, sa_sweep *state, double complex *start, int n, const sa_track *t,
+                       double alpha, double complex q)
 {
     sa_point m[SA_UPPER_MAX];
     state->count = 0;
     for (int i = 0; i < n; i++) {
         if (!sa_poles_newton(&start[i], &m[i], t, alpha, q) || !(cimag(start[i]) > 0))
-            return 0;
-        if (!sa_poles_enclose(&poles[i], &m[i], t, alpha, q))
-            return 0;
-    }
-    if (!sa_poles_separate(poles, n))
-        return 0;
-    for (int i = 0; i < n; i++) {
+            return LOST;
+        for (int j = 0; j < i; j++)
+            if (cabs(start[i] - start[j]) <= 0x1p-40 * cabs(start[i]))
+                return LOST;
         state->p[i] = start[i];
         sa_matrix_slopes(&state->slopes[i], &m[i], t, alpha);
     }
     state->count = n;
     state->alpha = alpha;
     state->q = q;
-    return 1;
+    for (int i = 0; i < n; i++)
+        if (!sa_poles_enclose(&poles[i], &m[i], t, alpha, q))
+            return UNBOUNDED;
+    return sa_poles_separate(poles, n) ? CERTIFIED : UNBOUNDED;
 }
 
-static int cold(sa_pole *poles, sa_sweep *state, int n, const sa_track *t, double alpha, double complex q)
+static outcome cold(sa_pole *poles, sa_sweep *state, int n, const sa_track *t, double alpha, double complex q)
 {
     double complex all[SA_POLES_MAX], start[SA_UPPER_MAX];
     int found, upper = 0;
     state->counts.cold_starts++;
     if (sa_poles_cold(all, &found, t, alpha, q) != CV_OK)
-        return 0;
+        return LOST;
     for (int i = 0; i < found; i++)
         if (cimag(all[i]) > 0) {
             if (upper == n)
-                return 0;
+                return LOST;
             start[upper++] = all[i];
         }
-    return upper == n && certify(poles, state, start, n, t, alpha, q);
+    return upper == n ? certify(poles, state, start, n, t, alpha, q) : LOST;
 }
 
 /* zeta = i q^2 (sum of the residues) */
@@ -104,8 +108,10 @@ cv_status sa_zeta_complex(sa_value *out, sa_sweep *state, const sa_track *t, dou
     double complex start[SA_UPPER_MAX];
     state->counts.evaluations++;
     sa_sweep_predict(start, state, alpha, q);
-    if ((state->count != n || !certify(poles, state, start, n, t, alpha, q)) &&
-        !cold(poles, state, n, t, alpha, q))
+    outcome result = state->count == n ? certify(poles, state, start, n, t, alpha, q) : LOST;
+    if (result == LOST)
+        result = cold(poles, state, n, t, alpha, q);
+    if (result != CERTIFIED)
         return CV_UNDECIDED;
     assemble(out, poles, state, q);
     return isfinite(out->re_error) && isfinite(out->im_error) ? CV_OK : CV_UNDECIDED;

@@ -11,7 +11,11 @@ static int find_warm(sa_pole_set *set, sa_sweep *state, const sa_track *t)
 {
     sa_value ignored;
     double alpha = mpfr_get_d(set->place.alpha.m, MPFR_RNDN), q = mpfr_get_d(set->place.q.m, MPFR_RNDN);
-    return !t->undamped && sa_zeta_double(&ignored, state, t, alpha, q) == CV_OK &&
+    if (t->undamped || set->place.upper_count > SA_UPPER_MAX)
+        return 0;
+    cv_status status = sa_zeta_double(&ignored, state, t, alpha, q);
+    /* the poles of an undecided evaluation at this very point are good starting values all the same */
+    return (status == CV_OK || (status == CV_UNDECIDED && state->alpha == alpha && state->q == q)) &&
            state->count == set->place.upper_count && sa_pole_set_find(set, state->p, state->count, 0, 0);
 }
 
