@@ -37,6 +37,31 @@ void sa_map_cuts_sort(sa_map_cuts *cuts)
     cuts->count = kept;
 }
 
+/* Where an arc that runs to p = infinity at the shear speed becomes negligible, it ends. */
+static cv_status cut_infinite_arcs(sa_map_cuts *cuts, const sa_map *map)
+{
+    const sa_branch_curves *curves = &map->curves;
+    for (size_t i = 0; i < curves->arc_count; ++i) {
+        const sa_branch_arc *a = &curves->arc[i];
+        long double low = a->alpha_low, shear = a->alpha_high, step = shear - low;
+        if (!isinf(a->p_high))
+            continue;
+        for (int j = 0; j < 60; ++j) { /* alpha = shear - step */
+            sa_wave wave;
+            long double q;
+            step /= 2;
+            if (sa_branch_arc_at(&wave, &q, curves, i, shear - step) != CV_OK)
+                return CV_FAILED;
+            if (sa_map_negligible(map, &wave, (double)fabsl(q)))
+                break;
+        }
+        double cut = (double)(shear - step);
+        if (cut > curves->alpha_min && cut < curves->alpha_max && sa_map_cuts_add(cuts, cut, 0) != CV_OK)
+            return CV_FAILED;
+    }
+    return CV_OK;
+}
+
 static cv_status collect_cuts(sa_map_cuts *cuts, sa_map *map)
 {
     const sa_branch_curves *curves = &map->curves;
@@ -46,7 +71,7 @@ static cv_status collect_cuts(sa_map_cuts *cuts, sa_map *map)
     for (size_t i = 0; i < curves->special_count; ++i)
         if (sa_map_cuts_add(cuts, curves->special[i].alpha, 1) != CV_OK)
             return CV_FAILED;
-    if (sa_map_ghosts(map, cuts) != CV_OK)
+    if (sa_map_ghosts(map, cuts) != CV_OK || cut_infinite_arcs(cuts, map) != CV_OK)
         return CV_FAILED;
     sa_map_cuts_sort(cuts);
     return CV_OK;

@@ -28,6 +28,12 @@ double sa_map_ghost_q(const sa_ghost *ghost, double alpha);
  * (eta_p (W-V)^2 + eta_b (V-U)^2 + eta_f U^2) / (W^2 + mu_s V^2 + mu_b U^2). */
 double sa_map_damping(const sa_map *map, const sa_wave *wave);
 
+/* 1 when the singularity of zeta at the branch point of this wave is too weak to matter even at its sharpest
+ * (distance = damping): its height W^2 / (2 omega sqrt(2 omega'' damping)) for a mode of unit kinetic norm,
+ * times q^2, is far below the Im zeta ~ eta q^3 that damping makes anywhere. So it is where a branch becomes
+ * flat or nears the shear speed, W^2 ~ p^-8. */
+int sa_map_negligible(const sa_map *map, const sa_wave *wave, double q);
+
 /* Fills the curves and grading lengths of a column whose ends are set. CV_FAILED: too many curves, or a wave
  * cannot be computed. */
 cv_status sa_map_column_fill(sa_column *column, const sa_map *map, int graded_low, int graded_high);

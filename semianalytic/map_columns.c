@@ -32,6 +32,18 @@ double sa_map_damping(const sa_map *map, const sa_wave *wave)
     return map->eta_p * pad * pad + map->eta_b * ballast * ballast + map->eta_f * v[2] * v[2];
 }
 
+int sa_map_negligible(const sa_map *map, const sa_wave *wave, double q)
+{
+    const double share = 1e-7, finest = 1e-14;
+    double v[3], eta = fmax(map->eta_p, fmax(map->eta_b, map->eta_f));
+    if (!isfinite(wave->p))
+        return 1;
+    mode_shape(v, &map->curves.grid.track, wave);
+    double damping = fmax(sa_map_damping(map, wave), finest);
+    double peak = v[0] * v[0] / (2 * (double)wave->omega * sqrt(2 * fabs((double)wave->d[2]) * damping));
+    return peak < share * eta * q;
+}
+
 typedef struct {
     double q;
     sa_map_curve curve;
@@ -76,8 +88,16 @@ static cv_status collect_curves(found *list, int *count, const sa_map *map, doub
     int n = sa_branch_points(point, SA_MAP_CURVES_MAX, &map->curves, alpha);
     if (n < 0 || n + (int)map->ghost_count > SA_MAP_CURVES_MAX)
         return CV_FAILED;
-    for (int i = 0; i < n; ++i)
-        list[i] = (found){point[i].q, {point[i].arc, 0}};
+    int kept = 0;
+    for (int i = 0; i < n; ++i) {
+        sa_wave wave;
+        long double q;
+        if (sa_branch_arc_at(&wave, &q, &map->curves, (size_t)point[i].arc, alpha) != CV_OK)
+            return CV_FAILED;
+        if (!sa_map_negligible(map, &wave, point[i].q))
+            list[kept++] = (found){point[i].q, {point[i].arc, 0}};
+    }
+    n = kept;
     for (size_t i = 0; i < map->ghost_count; ++i) {
         const sa_ghost *g = &map->ghost[i];
         if (alpha > fmin(g->alpha, g->end) && alpha < fmax(g->alpha, g->end))

@@ -161,7 +161,7 @@ static int vague(const sa_value *v, double re_floor)
 static cv_status evaluate(sa_sample *s, sa_field *field, const sa_map_point *point, double x, double y,
                           int certain)
 {
-    const double lowest_q = 1e-12, tolerance = 0.05;
+    const double lowest_q = 1e-9, tolerance = 0.05, nudge = 1e-13;
     sa_value v;
     warm_start *warm = choose(field, x, y);
     s->alpha = point->alpha;
@@ -169,6 +169,10 @@ static cv_status evaluate(sa_sample *s, sa_field *field, const sa_map_point *poi
     cv_status status = sa_zeta_double(&v, warm->sweep, field->track, s->alpha, s->q);
     if (status == CV_UNDECIDED || (status == CV_OK && certain && vague(&v, field->re_floor)))
         status = sa_zeta_adaptive(&v, warm->sweep, field->track, s->alpha, s->q, tolerance);
+    if (status == CV_UNDECIDED) { /* a pole at infinity, at the shear speed and nowhere else */
+        s->alpha *= 1 + nudge;
+        status = sa_zeta_adaptive(&v, warm->sweep, field->track, s->alpha, s->q, tolerance);
+    }
     if (status != CV_OK)
         return status;
     s->re = v.re;
