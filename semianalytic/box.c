@@ -1,6 +1,20 @@
 #include "semianalytic/box.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* 2^exponent; without the cost of ldexpl where a double holds it */
+static long double power_of_two(long exponent)
+{
+    enum { DOUBLE_BIAS = 1023, FRACTION_BITS = 52 };
+    if (exponent <= -DOUBLE_BIAS || exponent > DOUBLE_BIAS)
+        return ldexpl(1, (int)exponent);
+    uint64_t bits = (uint64_t)(exponent + DOUBLE_BIAS) << FRACTION_BITS;
+    double result;
+    memcpy(&result, &bits, sizeof result);
+    return (long double)result;
+}
 
 long double sa_magnitude(const mpfr_t x)
 {
@@ -8,13 +22,15 @@ long double sa_magnitude(const mpfr_t x)
         return 0;
     if (!mpfr_number_p(x))
         return INFINITY;
-    return ldexpl(1, (int)mpfr_get_exp(x));
+    return power_of_two(mpfr_get_exp(x));
 }
 
 /* half a unit in the last place of x */
 static long double half_ulp(const mpfr_t x)
 {
-    return ldexpl(sa_magnitude(x), -(int)mpfr_get_prec(x) - 1);
+    if (mpfr_regular_p(x))
+        return power_of_two(mpfr_get_exp(x) - mpfr_get_prec(x) - 1);
+    return mpfr_zero_p(x) ? 0 : INFINITY;
 }
 
 void sa_span_init(sa_span *x, mpfr_prec_t precision)
