@@ -15,6 +15,8 @@ typedef struct {
 typedef cv_status dg_command(const dg_options *options, const char *path, FILE *out, FILE *log,
                              cv_message *why);
 
-dg_command dg_command_z; /* zeta (and z) at one point */
+dg_command dg_command_z;           /* zeta (and z) at one point */
+dg_command dg_command_count;       /* unstable roots at one velocity */
+dg_command dg_command_transitions; /* all transitions over the velocity range */
 
 #endif

@@ -46,6 +46,10 @@ typedef struct {
 cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why);
 void dg_curve_clear(dg_curve *c);
 
+/* Narrows the brackets of those crossings that leave open on which side of x they pass. CV_UNDECIDED: to
+ * double precision one of them passes through x. */
+cv_status dg_curve_separate(dg_curve *c, const dg_probe *p, double x, cv_message *why);
+
 /* Narrows [a, b], where Im zeta changes sign, and fills the crossing, its slopes included. */
 cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at, const dg_node *a,
                          const dg_node *b);

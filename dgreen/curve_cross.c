@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "dgreen/curve.h"
+#include "dgreen/curve_refine.h"
 
 /* The next point of a bracketed search: secant twice, kept off the ends, then the logarithmic middle. */
 static double next_point(const dg_station *at, const dg_node *a, const dg_node *b, int step)
@@ -44,6 +44,14 @@ static cv_status narrow(search *s, const dg_probe *p, const dg_station *at)
     return CV_OK;
 }
 
+static void set_bracket(dg_crossing *x, const dg_node *low, const dg_node *high)
+{
+    x->q_low = low->q;
+    x->q_high = high->q;
+    x->x_low = fmin(low->re - low->re_error, high->re - high->re_error);
+    x->x_high = fmax(low->re + low->re_error, high->re + high->re_error);
+}
+
 cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at, const dg_node *a,
                          const dg_node *b)
 {
@@ -53,12 +61,9 @@ cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at
         return status;
     const dg_node *low = &s.certain_low, *high = &s.certain_high;
     const double part = s.low.im / (s.low.im - s.high.im);
-    x->q_low = low->q;
-    x->q_high = high->q;
     x->q = s.low.q + part * (s.high.q - s.low.q);
     x->x = s.low.re + part * (s.high.re - s.low.re);
-    x->x_low = fmin(low->re - low->re_error, high->re - high->re_error);
-    x->x_high = fmax(low->re + low->re_error, high->re + high->re_error);
+    set_bracket(x, low, high);
     x->direction = low->im > 0 ? 1 : -1;
     x->position = dg_station_position(at, x->q);
     x->scale = dg_station_scale(at, x->q);
@@ -66,5 +71,46 @@ cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at
     status = dg_probe_slopes(&slopes, p, at, x->q);
     x->dq = slopes.dq;
     x->dx = slopes.dx;
+    return status;
+}
+
+/* One crossing: a bracket around its estimate, so narrow that Re zeta stays on one side of x, and narrower
+ * again where its ends are not certified to be on both sides of the crossing. */
+static cv_status separate(dg_curve *c, const dg_probe *p, dg_crossing *crossing, double x, cv_message *why)
+{
+    enum { ROUNDS = 8 };
+    const double rate = (crossing->x_high - crossing->x_low) / (crossing->q_high - crossing->q_low);
+    double half = fabs(crossing->x - x) / (4 * rate);
+    for (int i = 0; i < ROUNDS; i++, half /= 8) {
+        const size_t first = c->node_count;
+        cv_status status = dg_curve_reserve(c, 2, why);
+        if (status == CV_OK)
+            status = dg_probe_at(&c->nodes[first], p, c->at.alpha, crossing->q - half);
+        if (status == CV_OK)
+            status = dg_probe_at(&c->nodes[first + 1], p, c->at.alpha, crossing->q + half);
+        if (status == CV_UNDECIDED)
+            break;
+        if (status != CV_OK)
+            return status;
+        const dg_node *low = &c->nodes[first], *high = low + 1;
+        if ((low->im > 0) == (high->im > 0))
+            break;
+        set_bracket(crossing, low, high);
+        c->node_count += 2;
+        if (!(crossing->x_low <= x && crossing->x_high >= x))
+            return CV_OK;
+    }
+    return cv_fail(why, CV_UNDECIDED, "a root on the stability boundary at alpha = %.17g", c->at.alpha);
+}
+
+cv_status dg_curve_separate(dg_curve *c, const dg_probe *p, double x, cv_message *why)
+{
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < c->crossing_count && status == CV_OK; i++) {
+        dg_crossing *crossing = &c->crossings[i];
+        if (crossing->x_low <= x && crossing->x_high >= x)
+            status = separate(c, p, crossing, x, why);
+    }
+    dg_curve_sort(c);
     return status;
 }

@@ -16,6 +16,10 @@ static const char help[] =
     "      without damping: the limit of vanishing real part of qbar\n"
     "  critvel-dgreen z FILE --alpha 0.3 --frequency 0.22 --mass-ratio 100 --format json\n"
     "      z for eta_M = 100 as well, as JSON\n"
+    "  critvel-dgreen count FILE --alpha 0.3\n"
+    "      number of unstable roots for every mass ratio of the case, by the winding of the curve z(iq)\n"
+    "  critvel-dgreen transitions FILE --case 3 --damping 1e-10 --mass-ratio 100\n"
+    "      all velocities of the range where that number changes, with q; default: every mass ratio\n"
     "\n"
     "FILE is a case file; the mass is on the edge of instability where z = 1.\n"
     "\n"
@@ -40,8 +44,8 @@ static const cv_option options[] = {CV_OPTION_CASE(offsetof(dg_options, selectio
                                     {NULL, NULL, 0, 0}};
 
 /* One row per subcommand; names[i] belongs to commands[i]. */
-static const char *const names[] = {"z", NULL};
-static dg_command *const commands[] = {dg_command_z};
+static const char *const names[] = {"z", "count", "transitions", NULL};
+static dg_command *const commands[] = {dg_command_z, dg_command_count, dg_command_transitions};
 
 static cv_status work(const void *typed, const cv_arguments *arguments, FILE *out, FILE *log, cv_message *why)
 {
