@@ -63,17 +63,48 @@ static dg_residue far_residue(const dg_operator *op, const dg_roots *roots, cons
     return quotient(-(u2_re * s.re - u2_im * s.im), -(u2_re * s.im + u2_im * s.re), error, d, i);
 }
 
-/* Sizes of the parts of R at a flat root */
-static inline void size_parts(double *re, double *im, const dg_operator *op, double x, double y)
+/* A complex number, or the bounds of the errors of its parts */
+typedef struct {
+    double re, im;
+} pair;
+
+static inline pair times(pair a, pair b)
 {
-    double sum_re = 0, sum_im = 0;
+    return (pair){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+
+/* error += what errors of the parts of one factor do to the parts of a product */
+static inline void spread(pair *error, pair parts, pair factor)
+{
+    error->re += parts.re * fabs(factor.re) + parts.im * fabs(factor.im);
+    error->im += parts.re * fabs(factor.im) + parts.im * fabs(factor.re);
+}
+
+/* Rounding of the parts of R at a flat root */
+static inline pair rounding_of_r(const dg_operator *op, double x, double y)
+{
+    pair sum = {0, 0};
     for (int k = DG_R_DEGREE; k >= 0; k--) {
-        const double next = sum_re * x + sum_im * y + op->r_size_re[k];
-        sum_im = sum_re * y + sum_im * x + op->r_size_im[k];
-        sum_re = next;
+        const double next = sum.re * x + sum.im * y + op->r_size_re[k];
+        sum.im = sum.re * y + sum.im * x + op->r_size_im[k];
+        sum.re = next;
     }
-    *re = DG_R_UNITS * sum_re;
-    *im = DG_R_UNITS * sum_im;
+    return (pair){DG_R_UNITS * sum.re, DG_R_UNITS * sum.im};
+}
+
+/* Everything that can be wrong with f', R, E and d of flat_residue, relative to itself, times itself (units)
+ */
+static inline double second_order(const dg_discs *d, int i, const sample *s, pair r, pair top, double reach)
+{
+    const double slope = modulus(d->d_re[i], d->d_im[i]), whole = modulus(r.re, r.im);
+    const double radius = d->radius[i], absolute = radius * UNIT, crowding = d->crowding[i];
+    const double relative =
+        (d->d_error[i] + 16) * UNIT + d->field_error[i] / crowding + 3 * absolute * crowding;
+    const double movement = radius * (2 * crowding * whole + modulus(s->slope_re, s->slope_im) / slope);
+    const double rounding = (top.re + top.im + (d->rounding_re[i] + d->rounding_im[i]) * whole) / slope;
+    const double curvature = s->size * absolute / (reach * slope) * (6 * radius / reach + 8 * DG_R_UNITS);
+    const double product = absolute * crowding * radius * crowding * whole;
+    return 3 * (movement + rounding) * relative + 2 * curvature + 2.5 * product;
 }
 
 /* A flat root, parts apart. With d = y - y*, E = sum of 1/(y - y_k*), x = |d| crowding <= 0.05:
@@ -82,41 +113,22 @@ static inline void size_parts(double *re, double *im, const dg_operator *op, dou
  * hence the residue is r + d (2 E r - R'/f') + rounding + terms of second order in d and the rounding. */
 static inline dg_residue flat_residue(const dg_operator *op, const dg_roots *roots, const dg_discs *d, int i)
 {
-    const double x = roots->re[i], y = roots->im[i], radius = d->radius[i], absolute = radius * UNIT;
-    const double reach = modulus(x, y) + absolute;
+    const double x = roots->re[i], y = roots->im[i], reach = modulus(x, y) + d->radius[i] * UNIT;
+    const double norm = d->d_re[i] * d->d_re[i] + d->d_im[i] * d->d_im[i];
     const sample s = sample_r(op, 0, x, y, reach);
-    double top_re, top_im;
-    size_parts(&top_re, &top_im, op, fabs(x), fabs(y));
+    const pair top = rounding_of_r(op, fabs(x), fabs(y));
+    const pair inverse = {d->d_re[i] / norm, -d->d_im[i] / norm}; /* 1/f' */
+    const pair r = times((pair){s.re, s.im}, inverse);
+    const pair field = times((pair){2 * d->field_re[i], 2 * d->field_im[i]}, r);
+    const pair slope = times((pair){s.slope_re, s.slope_im}, inverse);
 
-    const double d_re = d->d_re[i], d_im = d->d_im[i], norm = d_re * d_re + d_im * d_im, slope = sqrt(norm);
-    const double g_re = d_re / norm, g_im = -d_im / norm; /* 1/f' */
-    dg_residue r = {s.re * g_re - s.im * g_im, s.re * g_im + s.im * g_re, 0, 0};
-    const double t_re =
-        2 * (d->field_re[i] * r.re - d->field_im[i] * r.im) - (s.slope_re * g_re - s.slope_im * g_im);
-    const double t_im =
-        2 * (d->field_re[i] * r.im + d->field_im[i] * r.re) - (s.slope_re * g_im + s.slope_im * g_re);
-    const double k_re = r.re * g_re - r.im * g_im, k_im = r.re * g_im + r.im * g_re;
-
-    /* first order: movement d t, rounding e g of R and e' k of f', rounding of the quotient */
-    r.error_re = radius * fabs(t_re) + d->radius_im[i] * fabs(t_im) + top_re * fabs(g_re) +
-                 top_im * fabs(g_im) + d->rounding_re[i] * fabs(k_re) + d->rounding_im[i] * fabs(k_im) +
-                 8 * (fabs(s.re * g_re) + fabs(s.im * g_im));
-    r.error_im = radius * fabs(t_im) + d->radius_im[i] * fabs(t_re) + top_re * fabs(g_im) +
-                 top_im * fabs(g_re) + d->rounding_im[i] * fabs(k_re) + d->rounding_re[i] * fabs(k_im) +
-                 8 * (fabs(s.re * g_im) + fabs(s.im * g_re));
-
-    /* second order: everything that can be wrong with f', R, E and d, relative to itself */
-    const double whole = modulus(r.re, r.im), crowding = d->crowding[i];
-    const double relative =
-        (d->d_error[i] + 16) * UNIT + d->field_error[i] / crowding + 3 * absolute * crowding;
-    const double movement = radius * (2 * crowding * whole + modulus(s.slope_re, s.slope_im) / slope);
-    const double rounding = (top_re + top_im + (d->rounding_re[i] + d->rounding_im[i]) * whole) / slope;
-    const double curvature = s.size * absolute / (reach * slope) * (6 * radius / reach + 8 * DG_R_UNITS);
-    const double product = absolute * crowding * radius * crowding * whole;
-    const double second = 3 * (movement + rounding) * relative + 2 * curvature + 2.5 * product;
-    r.error_re += second;
-    r.error_im += second;
-    return r;
+    pair error = {0, 0};
+    spread(&error, (pair){d->radius[i], d->radius_im[i]}, (pair){field.re - slope.re, field.im - slope.im});
+    spread(&error, top, inverse);
+    spread(&error, (pair){d->rounding_re[i], d->rounding_im[i]}, times(r, inverse));
+    spread(&error, (pair){8 * fabs(s.re), 8 * fabs(s.im)}, inverse);
+    const double second = second_order(d, i, &s, r, top, reach);
+    return (dg_residue){r.re, r.im, error.re + second, error.im + second};
 }
 
 static inline void add(dg_residue *sum, dg_residue r)
