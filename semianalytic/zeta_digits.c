@@ -6,17 +6,18 @@
 
 enum { FIRST_PRECISION = 127 };
 
-/* The upper poles next to those of the double evaluation at the rounded point, which also warms the sweep. */
+/* The upper poles next to those of the double evaluation at the rounded point, which also warms the sweep.
+ * What it left undecided is a good start all the same. */
 static int find_warm(sa_pole_set *set, sa_sweep *state, const sa_track *t)
 {
     sa_value ignored;
     double alpha = mpfr_get_d(set->place.alpha.m, MPFR_RNDN), q = mpfr_get_d(set->place.q.m, MPFR_RNDN);
-    if (t->undamped || set->place.upper_count > SA_UPPER_MAX)
+    if (t->undamped)
         return 0;
-    cv_status status = sa_zeta_double(&ignored, state, t, alpha, q);
-    /* the poles of an undecided evaluation at this very point are good starting values all the same */
-    return (status == CV_OK || (status == CV_UNDECIDED && state->alpha == alpha && state->q == q)) &&
-           state->count == set->place.upper_count && sa_pole_set_find(set, state->p, state->count, 0, 0);
+    if (state->count == 0 || state->alpha != alpha || state->q != q)
+        sa_zeta_double(&ignored, state, t, alpha, q);
+    return state->count == set->place.upper_count && state->alpha == alpha && state->q == q &&
+           sa_pole_set_find(set, state->p, state->count, 0, 0);
 }
 
 static cv_status find_cold(sa_pole_set *set, sa_sweep *state, const sa_track *t, const cv_number *alpha,
