@@ -1,15 +1,17 @@
 #include "semianalytic/box.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-/* 2^exponent; without the cost of ldexpl where a double holds it */
+/* 2^exponent, or LDBL_MIN where that is below: radii never vanish by underflow. Without the cost of ldexpl
+ * where a double holds it. */
 static long double power_of_two(long exponent)
 {
     enum { DOUBLE_BIAS = 1023, FRACTION_BITS = 52 };
     if (exponent <= -DOUBLE_BIAS || exponent > DOUBLE_BIAS)
-        return ldexpl(1, (int)exponent);
+        return fmaxl(ldexpl(1, (int)exponent), LDBL_MIN);
     uint64_t bits = (uint64_t)(exponent + DOUBLE_BIAS) << FRACTION_BITS;
     double result;
     memcpy(&result, &bits, sizeof result);

@@ -52,8 +52,11 @@ static int find_poles(sa_pole_set *set, const request *r, int all)
     return sa_pole_set_find(set, r->start, r->starts, 1, all);
 }
 
-/* One precision: 1 when both values are known well enough. */
-static int evaluate(mpc_t zeta, mpc_t kernel, const request *r, mpfr_prec_t precision)
+typedef enum { KNOWN, VAGUE, UNSEPARATED } outcome;
+
+/* One precision. KNOWN: both values are known well enough; VAGUE: not with these bits; UNSEPARATED: nor are
+ * the poles. */
+static outcome evaluate(mpc_t zeta, mpc_t kernel, const request *r, mpfr_prec_t precision)
 {
     sa_pole_set set;
     sa_box value[2];
@@ -65,14 +68,14 @@ static int evaluate(mpc_t zeta, mpc_t kernel, const request *r, mpfr_prec_t prec
     sa_span_init(&xi, precision);
     if (r->xi != NULL)
         sa_span_set_number(&xi, r->xi);
-    int done = find_poles(&set, r, r->track->undamped || mpfr_sgn(xi.m) < 0);
-    if (done) {
+    outcome result = UNSEPARATED;
+    if (find_poles(&set, r, r->track->undamped || mpfr_sgn(xi.m) < 0)) {
         sa_zeta_box(&value[0], &set);
         sa_kernel_box(&value[1], &set, &xi);
         times_two_pi(&value[1]);
-        done = known(&value[0], r->tolerance) && known(&value[1], r->tolerance);
+        result = known(&value[0], r->tolerance) && known(&value[1], r->tolerance) ? KNOWN : VAGUE;
     }
-    if (done) {
+    if (result == KNOWN) {
         mpc_set_prec(zeta, precision);
         mpc_set_prec(kernel, precision);
         mpc_set(zeta, value[0].m, MPC_RNDNN);
@@ -82,7 +85,7 @@ static int evaluate(mpc_t zeta, mpc_t kernel, const request *r, mpfr_prec_t prec
     sa_box_clear(&value[0]);
     sa_box_clear(&value[1]);
     sa_pole_set_clear(&set);
-    return done;
+    return result;
 }
 
 cv_status sa_kernel_digits(mpc_t zeta, mpc_t kernel, const sa_track *t, const cv_number *alpha,
@@ -96,14 +99,18 @@ cv_status sa_kernel_digits(mpc_t zeta, mpc_t kernel, const sa_track *t, const cv
     if (sa_kernel_starts(r.start, &r.starts, t, alpha, q) != CV_OK)
         return cv_fail(why, CV_FAILED, "LAPACK zggev failed");
     long needed = (long)(digits * 3.3219280948873624) + 48;
-    for (long bits = (needed | 63); bits <= needed + BITS_BEYOND_DIGITS_MAX; bits = (bits + bits / 2) | 63)
-        if (evaluate(zeta, kernel, &r, bits))
-            return CV_OK;
-    return cv_fail(
-        why, CV_UNDECIDED,
-        "%ld bits do not separate the poles: alpha and q are at a branch point of the undamped track, or too "
-        "close to one",
-        needed + BITS_BEYOND_DIGITS_MAX);
+    long most = needed + BITS_BEYOND_DIGITS_MAX;
+    outcome result = UNSEPARATED;
+    for (long bits = (needed | 63); bits <= most && result != KNOWN; bits = (bits + bits / 2) | 63)
+        result = evaluate(zeta, kernel, &r, bits);
+    if (result == VAGUE)
+        return cv_fail(why, CV_UNDECIDED, "%ld bits are not enough for %d digits of both parts", most,
+                       digits);
+    if (result == UNSEPARATED)
+        return cv_fail(why, CV_UNDECIDED,
+                       "%ld bits do not separate the poles: a branch point of the track, or too close to one",
+                       most);
+    return CV_OK;
 }
 
 cv_status sa_zeta_digits(mpc_t zeta, const sa_track *t, const cv_number *alpha, const cv_number *q,
