@@ -13,9 +13,8 @@ static double across_t(const double *a)
     return (a[0] + a[1] - a[2] - a[3]) / 2;
 }
 
-int sa_cell_one_signed(double roughness[2], const sa_cell_values *v, double tolerance)
+int sa_cell_one_signed(double roughness[2], const sa_cell_values *v, double tolerance, double steepest)
 {
-    const double steepest = 6;
     double log_f[SA_CELL_POINTS], slope_u[SA_CELL_POINTS], slope_t[SA_CELL_POINTS], largest = 0;
     roughness[0] = roughness[1] = INFINITY;
     for (int i = 0; i < SA_CELL_POINTS; ++i) {

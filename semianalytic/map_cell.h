@@ -16,9 +16,9 @@ typedef struct {
 
 /* 1 when the function keeps its sign in the cell: it has one sign at all five points, and log|f|, which has a
  * pole at every zero of f in or near the cell, is at the centre what a cubic through the corners predicts, up
- * to "tolerance". roughness: mismatch of the slope of log|f| along u and t (infinite where signs differ); the
- * cell is best split across the larger. */
-int sa_cell_one_signed(double roughness[2], const sa_cell_values *v, double tolerance);
+ * to "tolerance", and its slopes are below "steepest". roughness: mismatch of the slope of log|f| along u and
+ * t (infinite where signs differ); the cell is best split across the larger. */
+int sa_cell_one_signed(double roughness[2], const sa_cell_values *v, double tolerance, double steepest);
 
 /* 1 when the five values have one sign and vary little and smoothly: used on the derivative of a function,
  * which is then monotone in that direction. */

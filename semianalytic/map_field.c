@@ -128,14 +128,23 @@ const sa_map_node *sa_field_node(sa_field *field, double u)
     return NULL;
 }
 
-/* The warm start used nearest to here in this block, else the one unused for longest. */
-static warm_start *choose(sa_field *field, double x, double y)
+/* Where a point lies, for the warm starts. */
+typedef struct {
+    const sa_map_node *node;
+    int strip, side_t;
+    double t, x, y;
+} place;
+
+/* The warm start used nearest to here in this block, else the one unused for longest. Poles depend on the
+ * distance to the curve (y) more than on that to the special velocity (x). */
+static warm_start *choose(sa_field *field, const place *here)
 {
+    const double weight_x = 0.3;
     warm_start *best = NULL, *oldest = &field->warm[0];
-    double nearest = 4;
+    double nearest = INFINITY;
     for (int i = 0; i < SWEEPS; ++i) {
         warm_start *w = &field->warm[i];
-        double distance = fmax(fabs(w->x - x), fabs(w->y - y));
+        double distance = weight_x * fabs(w->x - here->x) + fabs(w->y - here->y);
         if (w->block == field->block_stamp && distance < nearest) {
             nearest = distance;
             best = w;
@@ -143,13 +152,30 @@ static warm_start *choose(sa_field *field, double x, double y)
         if (w->used < oldest->used)
             oldest = w;
     }
-    if (best == NULL)
+    if (best == NULL) {
         best = oldest;
-    best->x = x;
-    best->y = y;
-    best->block = field->block_stamp;
-    best->used = ++field->clock;
+        best->y = here->y;
+    }
     return best;
+}
+
+/* Follows the poles in steps that keep them in Newton's reach, which is much cheaper than a cold start. */
+static void approach(sa_field *field, warm_start *warm, const place *here)
+{
+    const double longest = 3;
+    double from = warm->y;
+    int steps = (int)(fabs(here->y - from) / longest);
+    for (int i = 1; i <= steps; ++i) {
+        sa_map_point point;
+        sa_value ignored;
+        double y = from + (here->y - from) * i / (steps + 1);
+        sa_map_point_at(&point, here->node, here->strip, here->side_t, here->t * y / here->y);
+        (void)sa_zeta_double(&ignored, warm->sweep, field->track, point.alpha, point.q);
+    }
+    warm->x = here->x;
+    warm->y = here->y;
+    warm->block = field->block_stamp;
+    warm->used = ++field->clock;
 }
 
 /* The sign of Im zeta, or its size to a tenth, is not known although it matters. */
@@ -158,12 +184,14 @@ static int vague(const sa_value *v, double re_floor)
     return !(v->im_error < 0.1 * fabs(v->im)) && !(v->re + v->re_error < re_floor);
 }
 
-static cv_status evaluate(sa_sample *s, sa_field *field, const sa_map_point *point, double x, double y,
-                          int certain)
+static cv_status evaluate(sa_sample *s, sa_field *field, const place *here, int certain)
 {
     const double lowest_q = 1e-9, tolerance = 0.05, nudge = 1e-13;
     sa_value v;
-    warm_start *warm = choose(field, x, y);
+    sa_map_point at, *point = &at;
+    warm_start *warm = choose(field, here);
+    sa_map_point_at(point, here->node, here->strip, here->side_t, here->t);
+    approach(field, warm, here);
     s->alpha = point->alpha;
     s->q = fmax(point->q, lowest_q);
     cv_status status = sa_zeta_double(&v, warm->sweep, field->track, s->alpha, s->q);
@@ -193,25 +221,23 @@ static cv_status evaluate(sa_sample *s, sa_field *field, const sa_map_point *poi
 cv_status sa_field_at_node(sa_sample *out, sa_field *field, const sa_map_node *node, int strip, int side_t,
                            double t, int certain)
 {
-    sa_map_point point;
-    sa_map_point_at(&point, node, strip, side_t, t);
+    place here = {node, strip, side_t, t, 0, t * sa_map_strip_extent(node, strip, side_t)};
     out->u = 0;
     out->t = t;
-    return evaluate(out, field, &point, 0, t * sa_map_strip_extent(node, strip, side_t), certain);
+    return evaluate(out, field, &here, certain);
 }
 
 static cv_status at(sa_sample *out, sa_field *field, double u, double t, int certain)
 {
-    sa_map_point point;
     const sa_map_node *node = sa_field_node(field, u);
     if (node == NULL)
         return CV_FAILED;
-    sa_map_point_at(&point, node, field->strip, field->side_t, t);
+    place here = {node, field->strip, field->side_t, t, 0, 0};
+    here.x = u * sa_map_column_extent(&field->map->column[field->column], field->side_u);
+    here.y = t * sa_map_strip_extent(node, field->strip, field->side_t);
     out->u = u;
     out->t = t;
-    double x = u * sa_map_column_extent(&field->map->column[field->column], field->side_u);
-    double y = t * sa_map_strip_extent(node, field->strip, field->side_t);
-    return evaluate(out, field, &point, x, y, certain);
+    return evaluate(out, field, &here, certain);
 }
 
 cv_status sa_field_at(sa_sample *out, sa_field *field, double u, double t)

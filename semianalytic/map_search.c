@@ -6,6 +6,7 @@ typedef struct {
     const sa_map *map;
     sa_field *field;
     const sa_search *search;
+    double extent_u, extent_t; /* of the block, natural logarithms */
 } search_state;
 
 typedef struct {
@@ -34,8 +35,26 @@ static cv_status sample_cell(cell_data *d, sa_field *field, const cell *c)
     return CV_OK;
 }
 
+/* Size of a cell relative to the largest that is believed in without further demands; > 1: oversized. */
+static double excess(const search_state *st, const cell *c)
+{
+    return fmax(c->size_u * st->extent_u, c->size_t * st->extent_t) / st->search->largest_cell;
+}
+
+/* How smooth a function must be: the larger the cell, the nearer to a power law. */
+typedef struct {
+    double tolerance, steepest;
+} demand;
+
+static demand demand_on(const search_state *st, const cell *c)
+{
+    const double steepest = 6;
+    double size = fmax(excess(st, c), 1);
+    return (demand){st->search->tolerance / (size * size), steepest * size};
+}
+
 /* Re zeta - level keeps this sign in the cell */
-static int re_beyond(const cell_data *d, const cell *c, double level, double sign, double tolerance)
+static int re_beyond(const cell_data *d, const cell *c, double level, double sign, demand need)
 {
     sa_cell_values v;
     double roughness[2];
@@ -46,15 +65,15 @@ static int re_beyond(const cell_data *d, const cell *c, double level, double sig
         v.f_u[i] = d->s[i].re_u * c->size_u;
         v.f_t[i] = d->s[i].re_t * c->size_t;
     }
-    return sa_cell_one_signed(roughness, &v, tolerance);
+    return sa_cell_one_signed(roughness, &v, need.tolerance, need.steepest);
 }
 
 /* Nothing of interest in the cell. */
-static int dismissed(cell_data *d, const cell *c, const sa_search *search)
+static int dismissed(cell_data *d, const cell *c, const search_state *st)
 {
-    return sa_cell_one_signed(d->roughness, &d->im, search->tolerance) ||
-           re_beyond(d, c, search->re_low, -1, search->tolerance) ||
-           re_beyond(d, c, search->re_high, 1, search->tolerance);
+    demand need = demand_on(st, c);
+    return sa_cell_one_signed(d->roughness, &d->im, need.tolerance, need.steepest) ||
+           re_beyond(d, c, st->search->re_low, -1, need) || re_beyond(d, c, st->search->re_high, 1, need);
 }
 
 /* Zero of Im zeta on the edge from a to b, where its signs differ. */
@@ -143,10 +162,12 @@ static int simple(cv_status *status, const search_state *st, const cell_data *d)
     return 1;
 }
 
-/* The direction in which Im zeta is farther from a linear function. */
-static int split_along_u(const cell_data *d, const cell *c)
+/* The direction in which Im zeta is farther from a linear function, or in which the cell is too large. */
+static int split_along_u(const cell_data *d, const cell *c, const search_state *st)
 {
     const double most_oblong = 4096;
+    if (excess(st, c) > 1)
+        return c->size_u * st->extent_u > c->size_t * st->extent_t;
     if (c->size_u > most_oblong * c->size_t)
         return 1;
     if (c->size_t > most_oblong * c->size_u)
@@ -170,12 +191,12 @@ static cv_status search_cell(const search_state *st, cell c)
     const double smallest = 1e-9;
     cell_data d;
     cv_status status = sample_cell(&d, st->field, &c);
-    if (status != CV_OK || dismissed(&d, &c, st->search) || simple(&status, st, &d))
+    if (status != CV_OK || dismissed(&d, &c, st) || (excess(st, &c) <= 1 && simple(&status, st, &d)))
         return status;
     if (c.size_u < smallest || c.size_t < smallest)
         return give_up(st, &d);
     cell second = c;
-    if (split_along_u(&d, &c)) {
+    if (split_along_u(&d, &c, st)) {
         c.size_u = second.size_u = c.size_u / 2;
         second.u += c.size_u;
     } else {
@@ -186,28 +207,36 @@ static cv_status search_cell(const search_state *st, cell c)
     return status == CV_OK ? search_cell(st, second) : status;
 }
 
-/* Number of first cells along t: by the largest extent of the strip within the block. */
-static cv_status rows(int *out, const search_state *st, int columns, int strip, int side_t)
+/* The largest extent of the strip within the block. */
+static cv_status measure(search_state *st, size_t column, int side_u, int strip, int side_t)
 {
-    double extent = 0;
-    for (int i = 0; i <= 2 * columns; ++i) {
-        const sa_map_node *node = sa_field_node(st->field, (double)i / (2 * columns));
+    enum { PLACES = 16 };
+    st->extent_u = sa_map_column_extent(&st->map->column[column], side_u);
+    st->extent_t = 0;
+    for (int i = 0; i <= PLACES; ++i) {
+        const sa_map_node *node = sa_field_node(st->field, (double)i / PLACES);
         if (node == NULL)
             return CV_FAILED;
-        extent = fmax(extent, sa_map_strip_extent(node, strip, side_t));
+        st->extent_t = fmax(st->extent_t, sa_map_strip_extent(node, strip, side_t));
     }
-    *out = 1 + (int)(extent / st->search->largest_cell);
     return CV_OK;
 }
 
-static cv_status search_block(const search_state *st, size_t column, int side_u, int strip, int side_t)
+/* First cells: up to twice too large, so that one division leads to the largest size. */
+static int first_cells(double extent, double largest)
 {
-    double extent = sa_map_column_extent(&st->map->column[column], side_u);
-    int columns = 1 + (int)(extent / st->search->largest_cell), n;
+    const double times = 2;
+    return extent > largest ? (int)ceil(extent / (times * largest)) : 1;
+}
+
+static cv_status search_block(search_state *st, size_t column, int side_u, int strip, int side_t)
+{
     sa_field_block(st->field, column, side_u, strip, side_t);
-    cv_status status = rows(&n, st, columns, strip, side_t);
-    for (int i = 0; status == CV_OK && i < columns * n; ++i) {
-        cell c = {i / n * (1.0 / columns), i % n * (1.0 / n), 1.0 / columns, 1.0 / n};
+    cv_status status = measure(st, column, side_u, strip, side_t);
+    int n = first_cells(st->extent_u, st->search->largest_cell),
+        m = first_cells(st->extent_t, st->search->largest_cell);
+    for (int i = 0; status == CV_OK && i < n * m; ++i) {
+        cell c = {i / m * (1.0 / n), i % m * (1.0 / m), 1.0 / n, 1.0 / m};
         status = search_cell(st, c);
     }
     return status;
@@ -215,12 +244,12 @@ static cv_status search_block(const search_state *st, size_t column, int side_u,
 
 cv_status sa_map_search(const sa_map *map, sa_field *field, const sa_search *search)
 {
-    search_state st = {map, field, search};
+    search_state st = {.map = map, .field = field, .search = search};
     cv_status status = CV_OK;
-    for (size_t column = 0; column < map->count; ++column)
-        for (int strip = 0; strip <= map->column[column].count; ++strip)
-            for (int side = 0; side < 4 && status == CV_OK; ++side)
-                if (side < 2 || strip < map->column[column].count)
-                    status = search_block(&st, column, side % 2, strip, side / 2);
+    for (size_t i = 0; i < 2 * map->count; ++i) { /* one side of a column after the other: nodes are kept */
+        int strips = map->column[i / 2].count + 1;
+        for (int k = 0; k < 2 * strips - 1 && status == CV_OK; ++k) /* the last strip has one side */
+            status = search_block(&st, i / 2, (int)(i % 2), k / 2, k % 2);
+    }
     return status;
 }
