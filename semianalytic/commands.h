@@ -15,6 +15,7 @@ typedef struct {
 typedef cv_status sa_command(const sa_options *options, const cv_arguments *arguments, FILE *out, FILE *log,
                              cv_message *why);
 
-sa_command sa_command_kernel; /* K(xi, q) and zeta at one (alpha, q) */
+sa_command sa_command_kernel;     /* K(xi, q) and zeta at one (alpha, q) */
+sa_command sa_command_resonances; /* resonance and pseudocritical velocities of the moving force */
 
 #endif

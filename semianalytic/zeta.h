@@ -26,9 +26,9 @@ void sa_track_free(sa_track *t); /* NULL allowed */
 
 /* What a sequence of evaluations has cost. */
 typedef struct {
-    unsigned long evaluations;   /* calls of sa_zeta_double, _complex, _adaptive and _mp */
-    unsigned long cold_starts;   /* those that needed the eigenvalue solver */
-    unsigned long beyond_double; /* those that needed more than double precision */
+    unsigned long evaluations;   /* in double precision */
+    unsigned long cold_starts;   /* calls of the eigenvalue solver */
+    unsigned long beyond_double; /* calls of _mp, and of _adaptive where double was not enough */
     long largest_precision;      /* bits; 53 when double was enough */
 } sa_counts;
 
