@@ -125,6 +125,32 @@ START_TEST(half_planes_near_the_axis)
 }
 END_TEST
 
+/* Delta' at the approximations, in long double, is within the rounding bounds of its parts. */
+START_TEST(rounding_of_the_derivative)
+{
+    for (int i = 0; i < 1000; i++) {
+        double complex roots[DG_DEGREE];
+        dg_operator op;
+        dg_roots found;
+        dg_discs discs;
+        for (int k = 0; k < DG_DEGREE; k++)
+            roots[k] = CMPLX(k - 3.5 + 0.3 * gsl_rng_uniform(rng), -log_uniform(rng, 1e-14, 1e-3));
+        manufacture(&op, roots, 0);
+        ck_assert_int_eq(solve(&found, &discs, &op), CV_OK);
+        for (int k = 0; k < DG_DEGREE; k++) {
+            const long double complex y = CMPLX(found.re[k], found.im[k]);
+            long double complex slope = 0;
+            for (int n = DG_DEGREE; n >= 1; n--)
+                slope = slope * y + n * (long double complex)CMPLX(op.re[n], op.im[n]);
+            ck_assert(discs.flat[k]);
+            /* 72 units of the coefficients are not rounding here */
+            ck_assert(fabsl(discs.d_re[k] - creall(slope)) <= discs.rounding_re[k] * 58 / 130 * 0x1p-53);
+            ck_assert(fabsl(discs.d_im[k] - cimagl(slope)) <= discs.rounding_im[k] * 58 / 130 * 0x1p-53);
+        }
+    }
+}
+END_TEST
+
 /* A double root (of 2^-2 multiples, so that all coefficients are exact) has no disjoint discs. */
 START_TEST(double_root_is_undecided)
 {
@@ -262,6 +288,7 @@ int main(void)
     tcase_add_checked_fixture(c, setup, teardown);
     tcase_add_test(c, discs_hold_prescribed_roots);
     tcase_add_test(c, half_planes_near_the_axis);
+    tcase_add_test(c, rounding_of_the_derivative);
     tcase_add_test(c, double_root_is_undecided);
     tcase_add_test(c, root_through_infinity);
     tcase_add_test(c, continuation_finds_the_same_roots);

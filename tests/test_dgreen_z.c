@@ -303,9 +303,9 @@ START_TEST(degree_drop)
 }
 END_TEST
 
-/* Parts far apart in size have their digits separately: here |Re| is 1e-8 |Im|. mpmath 1.2.1, 90 digits, from
+/* Both parts have their digits. mpmath 1.2.1, 90 digits, from
  * the matrix (7). */
-START_TEST(small_part_has_its_own_digits)
+START_TEST(known_digits)
 {
     dg_track *t = track_of("3 10 0.03 0.1 1e-10 1e-10 1e-10 0 0"),
              *s = track_of("3.3 10 200 40 0.01 0.02 1e-5 5 -0.4");
@@ -320,6 +320,38 @@ START_TEST(small_part_has_its_own_digits)
               fabs(mpfr_get_d(mpc_imagref(exact), MPFR_RNDN)));
     dg_track_free(t);
     dg_track_free(s);
+}
+END_TEST
+
+/* Below the first cut-off of the resting track nothing is radiated and Im zeta is proportional to a small
+ * damping: 60 digits below Re zeta it still has its own 25, which takes more than the first precision. */
+START_TEST(tiny_part_is_proportional_to_damping)
+{
+    dg_track *small = track_of("6 35 300 7 1e-30 1e-30 1e-30 0 0"),
+             *tiny = track_of("6 35 300 7 1e-70 1e-70 1e-70 0 0");
+    char first[200], second[200];
+    ck_assert_int_eq(digits_at(small, "0", "0", "0.1", 25, NULL), CV_OK);
+    mpfr_snprintf(first, sizeof first, "%.24Re", mpc_imagref(exact));
+    ck_assert_int_eq(digits_at(tiny, "0", "0", "0.1", 25, NULL), CV_OK);
+    mpfr_snprintf(second, sizeof second, "%.24Re", mpc_imagref(exact));
+    ck_assert(strncmp(first, second, 27) == 0 && strcmp(first, second) != 0);
+    ck_assert(strstr(second, "e-7") != NULL && mpfr_get_prec(mpc_realref(exact)) > 300);
+    dg_track_free(small);
+    dg_track_free(tiny);
+}
+END_TEST
+
+/* Each part has its tolerance, and an infinite one asks for nothing. */
+START_TEST(tolerances_are_separate)
+{
+    dg_track *t = track_of("6 35 300 7 1e-25 1e-25 1e-25 0 0");
+    dg_value v;
+    ck_assert_int_eq(dg_zeta_adaptive(&v, follow, t, 0, CMPLX(0, 0.1), 1e-3, (double)INFINITY), CV_OK);
+    ck_assert(v.re_error <= 1e-3 * fabs(v.re) && dg_follow_counters(follow).above_double == 0);
+    ck_assert_int_eq(dg_zeta_adaptive(&v, follow, t, 0, CMPLX(0, 0.1), 1e-3, 1e-3), CV_OK);
+    ck_assert(v.im_error <= 1e-3 * fabs(v.im) && fabs(v.im) < 1e-24 * fabs(v.re));
+    ck_assert(dg_follow_counters(follow).above_double == 1);
+    dg_track_free(t);
 }
 END_TEST
 
@@ -374,7 +406,9 @@ int main(void)
     tcase_add_test(c, zero_damping_gives_exact_zeros);
     tcase_add_test(c, branch_point);
     tcase_add_test(c, degree_drop);
-    tcase_add_test(c, small_part_has_its_own_digits);
+    tcase_add_test(c, known_digits);
+    tcase_add_test(c, tiny_part_is_proportional_to_damping);
+    tcase_add_test(c, tolerances_are_separate);
     tcase_add_test(c, sweeps_stay_warm);
     tcase_add_test(c, absurd_numbers);
     suite_add_tcase(suite, c);
