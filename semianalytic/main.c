@@ -9,6 +9,7 @@ static const struct {
     sa_command *run;
 } commands[] = {
     {"kernel", sa_command_kernel},
+    {"resonances", sa_command_resonances},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -20,6 +21,7 @@ static const char help[] =
     "usage: critvel-semianalytic COMMAND FILE [OPTIONS]\n"
     "\n"
     "  kernel       K(xi, q) of (13) and zeta = q^2 K(0, q) / (2 pi) at one velocity and frequency\n"
+    "  resonances   resonance and pseudocritical velocities of the moving force\n"
     "\n"
     "FILE is a case file, e.g. data/paper.ini.\n"
     "\n"
@@ -28,6 +30,7 @@ static const char help[] =
     "  critvel-semianalytic kernel data/paper.ini --case 1 --damping 0 --alpha 0.3 --frequency 0.22 --digits "
     "60\n"
     "  critvel-semianalytic kernel data/paper.ini --alpha 0.3 --frequency 0.22 --xi -1.5 --format json\n"
+    "  critvel-semianalytic resonances data/paper.ini --case 3 --digits 25 --format json\n"
     "\n"
     "options:\n"
     "  --case NAME      the section [case NAME] or [track NAME] (default: the first of the file)\n"
