@@ -31,7 +31,8 @@ includes() { # includes FOLDER OTHER...
     return 1
 }
 
-defined() { nm -g --defined-only "$1" | awk 'NF == 3 { print $3 }' | sort -u; }
+# Without what AddressSanitizer adds for each global.
+defined() { nm -g --defined-only "$1" | awk 'NF == 3 && $3 !~ /^__odr_asan/ { print $3 }' | sort -u; }
 undefined() { nm -g --undefined-only "$1" | awk 'NF == 2 { print $2 }' | sort -u; }
 
 # Names that the first library needs and the second defines.
