@@ -84,11 +84,22 @@ static cv_status sample_between(const check *c, mpfr_srcptr low, mpfr_srcptr hig
     return CV_OK;
 }
 
-/* An end of the range, which cannot be moved. */
-static cv_status sample_end(const check *c, mpfr_srcptr end)
+/* A transition at that end: the methods may differ about whether it is in the range. */
+static int transition_at(const check *c, const cv_number *end)
 {
-    const double alpha = mpfr_get_d(end, MPFR_RNDN);
-    cv_status status = sample(c, alpha);
+    for (int m = 0; m < CMP_METHODS; m++)
+        for (size_t i = 0; i < c->lists[m]->count; i++)
+            if (cmp_transition_at(&c->lists[m]->items[i], end))
+                return 1;
+    return 0;
+}
+
+/* An end of the range, which cannot be moved. */
+static cv_status sample_end(const check *c, const cv_number *end)
+{
+    const double alpha = cv_number_get_double(end);
+    cv_status status =
+        transition_at(c, end) ? cv_fail(c->why, CV_UNDECIDED, "a transition lies there") : sample(c, alpha);
     if (status != CV_UNDECIDED)
         return status;
     cmp_verdict_worsen(c->verdict, CMP_UNDECIDED,
@@ -163,12 +174,12 @@ cv_status cmp_check_counts(cmp_verdict *v, cmp_counts *out, const cmp_list *cons
     cv_status status = marks_set(&m, &c, pairing, alpha_min, alpha_max);
     if (status != CV_OK)
         return status;
-    status = sample_end(&c, m.at[0]);
+    status = sample_end(&c, alpha_min);
     for (size_t i = 1; status == CV_OK && i < m.count; i++)
         if (mpfr_less_p(m.at[i - 1], m.at[i]))
             status = sample_between(&c, m.at[i - 1], m.at[i]);
     if (status == CV_OK)
-        status = sample_end(&c, m.at[m.count - 1]);
+        status = sample_end(&c, alpha_max);
     marks_clear(&m);
     return status;
 }

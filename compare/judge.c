@@ -128,23 +128,31 @@ static void judge_pair(cmp_verdict *v, const cmp_transition *a, const cmp_transi
 /* Transitions without a partner; judged first, because a missing one upsets the numbers of roots of the
  * others. Where a list is incomplete by its own account they prove nothing. */
 static void judge_single(cmp_verdict *v, const cmp_list *const lists[], const cmp_pairing *pairing, int m,
-                         const char *const names[])
+                         const char *const names[], const cv_number *const ends[])
 {
     if (lists[0]->status != CV_OK || lists[1]->status != CV_OK)
         return;
-    for (size_t i = 0; i < lists[m]->count; i++)
-        if (pairing->partner[m][i] == SIZE_MAX && usable(&lists[m]->items[i]))
-            cmp_verdict_worsen(
-                v, CMP_DISAGREE, "only %s has alpha = %.15g, q = %.15g (unstable roots %d to %d)", names[m],
-                mpfr_get_d(lists[m]->items[i].alpha, MPFR_RNDN), mpfr_get_d(lists[m]->items[i].q, MPFR_RNDN),
-                lists[m]->items[i].below, lists[m]->items[i].above);
+    for (size_t i = 0; i < lists[m]->count; i++) {
+        const cmp_transition *t = &lists[m]->items[i];
+        if (pairing->partner[m][i] != SIZE_MAX || !usable(t))
+            continue;
+        const double alpha = mpfr_get_d(t->alpha, MPFR_RNDN), q = mpfr_get_d(t->q, MPFR_RNDN);
+        if (cmp_transition_at(t, ends[0]) || cmp_transition_at(t, ends[1]))
+            cmp_verdict_worsen(v, CMP_UNDECIDED, "alpha = %.15g of %s is at the end of the range: in or out",
+                               alpha, names[m]);
+        else
+            cmp_verdict_worsen(v, CMP_DISAGREE,
+                               "only %s has alpha = %.15g, q = %.15g (unstable roots %d to %d)", names[m],
+                               alpha, q, t->below, t->above);
+    }
 }
 
 void cmp_judge(cmp_verdict *v, const cmp_list *const lists[CMP_METHODS], const cmp_pairing *pairing,
-               const char *const names[CMP_METHODS], int digits)
+               const char *const names[CMP_METHODS], const cv_number *alpha_min, const cv_number *alpha_max,
+               int digits)
 {
     for (int m = 0; m < CMP_METHODS; m++)
-        judge_single(v, lists, pairing, m, names);
+        judge_single(v, lists, pairing, m, names, (const cv_number *const[]){alpha_min, alpha_max});
     for (int m = 0; m < CMP_METHODS; m++)
         judge_list(v, lists[m], names[m], digits);
     for (size_t i = 0; i < lists[0]->count; i++)

@@ -42,7 +42,8 @@ void cmp_pairing_clear(cmp_pairing *p);
  * v->digits becomes the smallest -log10 of the relative difference of any pair, but never more than the
  * larger of the two stated bounds allows; without transitions, the digits asked for. */
 void cmp_judge(cmp_verdict *v, const cmp_list *const lists[CMP_METHODS], const cmp_pairing *pairing,
-               const char *const names[CMP_METHODS], int digits);
+               const char *const names[CMP_METHODS], const cv_number *alpha_min, const cv_number *alpha_max,
+               int digits);
 
 /* log10 |x| for any exponent range; -infinity for 0, NaN for NaN. */
 double cmp_log10(mpfr_srcptr x);

@@ -64,3 +64,17 @@ size_t cmp_list_limit(const cmp_list *list)
         i++;
     return i;
 }
+
+int cmp_transition_at(const cmp_transition *t, const cv_number *alpha)
+{
+    mpfr_t distance, unit;
+    mpfr_init2(distance, mpfr_get_prec(t->alpha) + 64);
+    mpfr_init2(unit, 53);
+    cv_number_get_mpfr(distance, alpha);
+    mpfr_mul_2si(unit, distance, -52, MPFR_RNDU);
+    mpfr_sub(distance, distance, t->alpha, MPFR_RNDN);
+    mpfr_abs(distance, distance, MPFR_RNDN);
+    const int at = mpfr_lessequal_p(distance, unit) || mpfr_lessequal_p(distance, t->alpha_error);
+    mpfr_clears(distance, unit, (mpfr_ptr)0);
+    return at;
+}

@@ -40,6 +40,10 @@ cv_status cmp_list_append(cmp_list *list, mpfr_srcptr alpha, mpfr_srcptr q, doub
  * none. */
 size_t cmp_list_limit(const cmp_list *list);
 
+/* Whether t cannot be told from the velocity alpha: they differ by no more than its bound, or by no more than
+ * a unit in the last place of a double, in which the methods may search. */
+int cmp_transition_at(const cmp_transition *t, const cv_number *alpha);
+
 /* What a search cost. */
 typedef struct {
     unsigned long evaluations;      /* of zeta, at any precision */

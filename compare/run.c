@@ -211,7 +211,8 @@ static cv_status check_mass(const cmp_run *run, const cmp_level *level, const cv
     cv_status status = cmp_pair(&pairing, lists[0], lists[1], why);
     if (status != CV_OK)
         return status;
-    cmp_judge(&result->verdict, lists, &pairing, names, run->file->digits);
+    cmp_judge(&result->verdict, lists, &pairing, names, &run->file->alpha_min, &run->file->alpha_max,
+              run->file->digits);
     for (int claimant = 0; status == CV_OK && claimant < CMP_METHODS; claimant++)
         for (int m = 0; status == CV_OK && m < CMP_METHODS; m++)
             status = cmp_put_back(&result->verdict, &result->worst, lists[claimant], names[claimant],
@@ -265,13 +266,15 @@ cv_status cmp_run_judge(cmp_run *run, size_t threads, const cmp_listener *listen
     return carry_out(run, 1, judge_unit, threads, listener, why);
 }
 
-static void add_result(cmp_summary *s, const cmp_result *r)
+/* Combinations without transitions have no digits of their own: they do not lower those of the others. */
+static void add_result(cmp_summary *s, const cmp_level *level, size_t mass)
 {
+    const cmp_result *r = &level->results[mass];
     s->total++;
     s->of_kind[r->verdict.kind]++;
     if (r->verdict.kind > s->worst)
         s->worst = r->verdict.kind;
-    if (r->verdict.kind == CMP_AGREE)
+    if (r->verdict.kind == CMP_AGREE && level->lists[0][mass].count > 0)
         s->fewest_digits = fmin(s->fewest_digits, r->verdict.digits);
     s->used = fmax(s->used, r->worst.used);
 }
@@ -282,5 +285,5 @@ void cmp_run_summary(cmp_summary *out, const cmp_run *run)
     for (size_t i = 0; i < run->case_count; i++)
         for (size_t l = 0; l < run->cases[i].level_count; l++)
             for (size_t m = 0; m < run->cases[i].from->mass_count; m++)
-                add_result(out, &run->cases[i].levels[l].results[m]);
+                add_result(out, &run->cases[i].levels[l], m);
 }

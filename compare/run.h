@@ -50,7 +50,7 @@ cv_status cmp_run_judge(cmp_run *run, size_t threads, const cmp_listener *listen
 /* Verdicts counted over a run. */
 typedef struct {
     size_t total, of_kind[3]; /* by cmp_kind */
-    double fewest_digits;     /* among the agreeing; infinite if there are none */
+    double fewest_digits;     /* among those that agree on transitions; infinite if none do */
     double used;              /* largest part of the allowed residual */
     cmp_kind worst;
 } cmp_summary;

@@ -46,7 +46,14 @@ static cmp_verdict judge_lists(const cmp_list *a, const cmp_list *b)
     cmp_verdict v;
     cmp_verdict_init(&v);
     ck_assert_int_eq(cmp_pair(&pairing, a, b, NULL), CV_OK);
-    cmp_judge(&v, lists, &pairing, names, DIGITS);
+    cv_number low, high;
+    cv_number_init(&low);
+    cv_number_init(&high);
+    ck_assert_int_eq(cv_number_parse(&low, "0.02", NULL), CV_OK);
+    ck_assert_int_eq(cv_number_parse(&high, "0.8", NULL), CV_OK);
+    cmp_judge(&v, lists, &pairing, names, &low, &high, DIGITS);
+    cv_number_clear(&low);
+    cv_number_clear(&high);
     cmp_pairing_clear(&pairing);
     return v;
 }
@@ -204,6 +211,17 @@ START_TEST(one_transition_pairs_with_one_only)
 }
 END_TEST
 
+START_TEST(one_at_the_end_of_the_range_is_undecided)
+{
+    const item at_low[] = {{"0.02", "0.2", 1e-22, 0, 2}},
+               at_high[] = {{"0.80000000000000001", "0.2", 1e-22, 0, 2}};
+    const item near_high[] = {{"0.7999999999999", "0.2", 1e-22, 0, 2}};
+    expect(judge_items(at_low, 1, NULL, 0), CMP_UNDECIDED, "end of the range");
+    expect(judge_items(NULL, 0, at_high, 1), CMP_UNDECIDED, "end of the range");
+    expect(judge_items(NULL, 0, near_high, 1), CMP_DISAGREE, "only dgreen");
+}
+END_TEST
+
 START_TEST(what_a_method_calls_undecided_stays_undecided)
 {
     cmp_list a, b;
@@ -311,6 +329,7 @@ int main(void)
     tcase_add_test(t, close_transitions_pair_by_frequency_and_direction);
     tcase_add_test(t, values_off_within_their_bounds_pair_by_frequency);
     tcase_add_test(t, one_transition_pairs_with_one_only);
+    tcase_add_test(t, one_at_the_end_of_the_range_is_undecided);
     tcase_add_test(t, what_a_method_calls_undecided_stays_undecided);
     tcase_add_test(t, nan_and_infinity_never_agree);
     tcase_add_test(t, a_bound_of_zero_claims_no_more_than_the_value_holds);

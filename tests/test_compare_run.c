@@ -66,6 +66,7 @@ START_TEST(faultless_methods_agree)
     ck_assert_uint_eq(s.total, 8); /* 2 cases, 2 dampings, 2 mass ratios */
     ck_assert_uint_eq(s.of_kind[CMP_AGREE], 8);
     ck_assert_int_eq(s.worst, CMP_AGREE);
+    ck_assert_double_eq_tol(s.fewest_digits, 23.1, 0.1); /* not the 20 of the masses without transitions */
 }
 END_TEST
 

@@ -90,6 +90,13 @@ verify "a warning of one line" test "$(wc -l <"$folder/err")" -eq 1
 verify "that names the value" grep -q 'mu_b' "$folder/err"
 
 
+# A range that ends at a transition: whether it is inside cannot be told.
+end=$(sed -n 's/.*"stability_limit": "\([0-9.]*\)".*/\1/p' "$folder/first.json" | head -1)
+sed "s/^alpha = .*/alpha = 0.02 $end/" "$small" >"$folder/end.ini"
+exits 1 "a transition at the end of the range" "$folder/end.ini" --case 1 --damping 0.1
+verify "the verdict is undecided" grep -q '^verdict: undecided' "$folder/out"
+verify "the reason is given" grep -q '^  undecided, damping 0.1, eta_M' "$folder/out"
+
 "$compare" efficiency "$small" --case 1 >"$folder/out" 2>"$folder/err"
 verify "efficiency: exit status 0" test $? -eq 0
 verify "efficiency: a row for each method at each damping" test "$(grep -c 'semianalytic\|dgreen' "$folder/out")" -eq 4
