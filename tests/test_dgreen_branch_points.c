@@ -249,7 +249,7 @@ static void read_pattern(pattern *out, const dg_branch_curves *b, double alpha)
  * end somewhere on the way to the shear wave speed) may come and go. */
 static size_t names(int *out, const pattern *a, const pattern *b)
 {
-    static const double SHORT = 250;
+    static const double SHORT = 100;
     size_t n = 0;
     for (size_t k = 0; k < a->count; k++) {
         int shared = 0;
