@@ -87,15 +87,17 @@ static cv_status add_notation(cmp_printed *p, const cmp_printed_entry *e, cv_mes
     return CV_OK;
 }
 
-/* Only for a case that is in the run. */
-static cv_status add_resonances(cmp_printed *p, const cmp_printed_entry *e, const cmp_run *run,
+/* Velocities of the moving force; only for a case that is in the run. */
+static cv_status add_velocities(cmp_printed *p, const cmp_printed_entry *e, const cmp_run *run,
                                 const cmp_printed_file *file, cv_message *why)
 {
     const cmp_case *found = NULL;
     cv_status status = find_case(&found, run, file, e->key, why);
     if (status != CV_OK || found == NULL)
         return status;
-    return cmp_printed_resonances(p, MAX_ROWS, e, &found->from->params, why);
+    if (strcmp(e->kind, "resonances") == 0)
+        return cmp_printed_resonances(p, MAX_ROWS, e, &found->from->params, why);
+    return cmp_printed_pseudocritical(p, MAX_ROWS, e, &found->from->params, why);
 }
 
 static cv_status add_entry(cmp_printed *p, const cmp_printed_entry *e, const cmp_run *run,
@@ -105,9 +107,9 @@ static cv_status add_entry(cmp_printed *p, const cmp_printed_entry *e, const cmp
         return add_formula(p, e, run, file, why);
     if (strcmp(e->kind, "notation") == 0)
         return add_notation(p, e, why);
-    if (strcmp(e->kind, "resonances") == 0)
-        return add_resonances(p, e, run, file, why);
-    return CV_OK;
+    if (strcmp(e->kind, "case") == 0)
+        return CV_OK;
+    return add_velocities(p, e, run, file, why);
 }
 
 cv_status cmp_printed_make(cmp_printed *out, const cmp_run *run, cv_message *why)

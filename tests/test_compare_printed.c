@@ -37,6 +37,7 @@ static void forget_cases(void)
 /* Case 3 under another name and with its parameters written differently, case 1, and a track of no table. */
 #define CASE_3 "[case x]\nmu_s = 6.0\nmu_b = 50e-1\nkappa_p = 3e-2\nkappa_b = 3\neta_s = 0\neta_N = 0\n"
 #define CASE_1 "[case 1]\nmu_s = 6\nmu_b = 35\nkappa_p = 300\nkappa_b = 7\neta_s = 0\neta_N = 0\n"
+#define CASE_4 "[case 4]\nmu_s = 3\nmu_b = 10\nkappa_p = 0.03\nkappa_b = 0.1\neta_s = 0\neta_N = 0\n"
 #define NO_CASE "[case 3]\nmu_s = 6\nmu_b = 5.0001\nkappa_p = 0.03\nkappa_b = 3\neta_s = 0\neta_N = 0\n"
 
 static cmp_printed make(void)
@@ -116,6 +117,22 @@ START_TEST(resonances_of_case_3)
 }
 END_TEST
 
+START_TEST(pseudocritical_velocities)
+{
+    read_cases(RUN CASE_3 CASE_4);
+    cmp_printed p = make();
+    ck_assert(row(&p, "0.404")->agrees);
+    ck_assert(row(&p, "0.304 (max)")->agrees);
+    ck_assert(row(&p, "0.329 (max)")->agrees);
+    ck_assert(row(&p, "0.329 (min)")->agrees);
+    ck_assert(row(&p, "0.293 (active_point)")->agrees);
+    ck_assert_ptr_nonnull(strstr(row(&p, "0.329 (max)")->computed, "(max)"));
+    ck_assert_ptr_nonnull(strstr(row(&p, "0.329 (min)")->computed, "(min)"));
+    cmp_printed_clear(&p);
+    forget_cases();
+}
+END_TEST
+
 START_TEST(formulas_and_notation_differ)
 {
     read_cases(RUN CASE_1);
@@ -149,6 +166,7 @@ int main(void)
     tcase_add_test(t, factor_four_in_13_and_14);
     tcase_add_test(t, first_entry_of_17);
     tcase_add_test(t, resonances_of_case_3);
+    tcase_add_test(t, pseudocritical_velocities);
     tcase_add_test(t, formulas_and_notation_differ);
     tcase_add_test(t, other_tracks_have_nothing_to_do_with_the_print);
     suite_add_tcase(s, t);
