@@ -23,6 +23,7 @@ void sa_place_init(sa_place *x, const sa_track *t, mpfr_prec_t precision)
     }
     sa_span_init(&x->alpha, precision);
     sa_span_init(&x->q, precision);
+    sa_span_init(&x->q_im, precision);
     sa_span_init(&x->one, precision);
     mpfr_set_ui(x->one.m, 1, MPFR_RNDN);
     x->precision = precision;
@@ -31,8 +32,8 @@ void sa_place_init(sa_place *x, const sa_track *t, mpfr_prec_t precision)
 
 void sa_place_clear(sa_place *x)
 {
-    sa_span *all[] = {&x->mu_s,   &x->mu_b,   &x->kappa_p, &x->kappa_b, &x->eta_s, &x->eta_N,
-                      &x->loss_p, &x->loss_b, &x->loss_f,  &x->alpha,   &x->q,     &x->one};
+    sa_span *all[] = {&x->mu_s,   &x->mu_b,   &x->kappa_p, &x->kappa_b, &x->eta_s, &x->eta_N, &x->loss_p,
+                      &x->loss_b, &x->loss_f, &x->alpha,   &x->q,       &x->q_im,  &x->one};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         sa_span_clear(all[i]);
 }
@@ -41,6 +42,8 @@ void sa_place_set(sa_place *x, const sa_track *t, const cv_number *alpha, const 
 {
     sa_span_set_number(&x->alpha, alpha);
     sa_span_set_number(&x->q, q);
+    mpfr_set_zero(x->q_im.m, 1);
+    x->q_im.r = 0;
     x->upper_count = sa_matrix_upper_count(&x->degree, t, alpha);
 }
 
@@ -100,6 +103,11 @@ void sa_box_matrix_set(sa_box_matrix *m, const sa_place *x)
     sa_box_neg(&m->s, &m->s);
     sa_box_add_real(&m->s, &m->s, &x->q);
     sa_box_times_i(&m->s, &m->s);
+    if (!mpfr_zero_p(x->q_im.m)) {
+        sa_box_neg(&m->s, &m->s);
+        sa_box_add_real(&m->s, &m->s, &x->q_im);
+        sa_box_neg(&m->s, &m->s);
+    }
     sa_box_sqr(&m->s2, &m->s);
     sa_box_sqr(&m->p2, &m->p);
     set_elements(m, x);

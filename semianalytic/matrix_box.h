@@ -5,11 +5,12 @@
 #include "semianalytic/box.h"
 #include "semianalytic/matrix.h"
 
-/* A track and a point (alpha, q) rounded at one precision. q is real. */
+/* A track and a point (alpha, q) rounded at one precision. sa_place_set sets a real q; whoever wants a
+ * complex one sets q_im afterwards. */
 typedef struct {
     mpfr_prec_t precision;
     sa_span mu_s, mu_b, kappa_p, kappa_b, eta_s, eta_N, loss_p, loss_b, loss_f;
-    sa_span alpha, q, one;
+    sa_span alpha, q, q_im, one;
     int upper_count, degree; /* sa_matrix_upper_count, exact */
     int undamped;
 } sa_place;
