@@ -4,7 +4,10 @@
 
 /* Steps of the differences relative to the distances over which zeta changes: in q, and in alpha. Their
  * squares are the relative errors of central differences. */
-static const double Q_STEP = 1e-4, ALPHA_STEP = 0.02;
+static const double Q_STEP = 1e-4, ALPHA_STEP = 1e-3;
+/* Closer to a branch point than the step suits, the rounding of its frequency (some 1e-15) asks for longer
+ * steps in alpha, up to this part. */
+static const double Q_NOISE = 1e-14, LONGEST_ALPHA_STEP = 0.02;
 
 static int is_certain(const dg_value *v)
 {
@@ -58,7 +61,9 @@ static double neighbours(double alpha[2], double frequency[2], const dg_probe *p
                          double q)
 {
     const double special = dg_special_distance(p->branches, at->alpha);
-    const double step = fmax(ALPHA_STEP * special, 1e-14 * at->alpha);
+    const double part =
+        fmin(fmax(ALPHA_STEP, Q_NOISE / (ALPHA_STEP * dg_station_scale(at, q))), LONGEST_ALPHA_STEP);
+    const double step = fmax(part * special, 1e-14 * at->alpha);
     const dg_branch_point *nearest = dg_station_nearest(at, q);
     dg_branch_point low, high;
     alpha[0] = at->alpha - step;
