@@ -7,8 +7,11 @@
 /* Everything the command line can say; a command ignores what is not meant for it. */
 typedef struct {
     cv_selection selection;
-    cv_optional_number xi; /* place relative to the load, dimensionless */
-    int quadrature;        /* kernel: K along the real axis too */
+    cv_optional_number xi;               /* place relative to the load, dimensionless */
+    int quadrature;                      /* kernel: K along the real axis too */
+    cv_optional_number from, to, points; /* steady: where the shape is written */
+    cv_optional_number depth;            /* roots: how far to the left of the imaginary axis */
+    const char *times;                   /* response: list or range; NULL where not given */
 } sa_options;
 
 /* As cv_work of common/cli.h. */
@@ -17,5 +20,7 @@ typedef cv_status sa_command(const sa_options *options, const cv_arguments *argu
 
 sa_command sa_command_kernel;     /* K(xi, q) and zeta at one (alpha, q) */
 sa_command sa_command_resonances; /* resonance and pseudocritical velocities of the moving force */
+sa_command sa_command_steady;     /* shape of the track under a moving constant force */
+sa_command sa_command_roots;      /* mass-induced frequencies and growth rates */
 
 #endif

@@ -10,6 +10,8 @@ static const struct {
 } commands[] = {
     {"kernel", sa_command_kernel},
     {"resonances", sa_command_resonances},
+    {"steady", sa_command_steady},
+    {"roots", sa_command_roots},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -22,6 +24,8 @@ static const char help[] =
     "\n"
     "  kernel       K(xi, q) of (13) and zeta = q^2 K(0, q) / (2 pi) at one velocity and frequency\n"
     "  resonances   resonance and pseudocritical velocities of the moving force\n"
+    "  steady       shape of rail, sleepers and ballast under the moving force (text: CSV)\n"
+    "  roots        roots of z = eta_M zeta = 1: mass-induced frequencies and growth rates\n"
     "\n"
     "FILE is a case file, e.g. data/paper.ini.\n"
     "\n"
@@ -31,6 +35,8 @@ static const char help[] =
     "60\n"
     "  critvel-semianalytic kernel data/paper.ini --alpha 0.3 --frequency 0.22 --xi -1.5 --format json\n"
     "  critvel-semianalytic resonances data/paper.ini --case 3 --digits 25 --format json\n"
+    "  critvel-semianalytic steady data/paper.ini --case 3 --damping 0 --alpha 0.4 --from -60 --to 30\n"
+    "  critvel-semianalytic roots data/paper.ini --case 1 --damping 0.05 --alpha 0.5 --mass-ratio 100\n"
     "\n"
     "options:\n"
     "  --case NAME      the section [case NAME] or [track NAME] (default: the first of the file)\n"
@@ -38,7 +44,10 @@ static const char help[] =
     "  --alpha X        velocity ratio of (4)\n"
     "  --frequency X    q, dimensionless; qbar = i q\n"
     "  --xi X           distance from the load, dimensionless (default 0)\n"
+    "  --mass-ratio X   eta_M of (11)\n"
+    "  --depth X        roots: stable ones down to Re qbar = -X (default 1)\n"
     "  --quadrature     K also by numerical integration along the real p axis (damped tracks)\n"
+    "  --from X, --to X, --points N   steady: where the shape is written (default: 401 from -20 to 20)\n"
     "  --digits N       significant digits of each part (default: digits of the file)\n"
     "  --format FORMAT  text or json\n"
     "  --help, --version\n"
@@ -62,10 +71,15 @@ int main(int argc, char **argv)
         CV_OPTION_DAMPING(offsetof(sa_options, selection)),
         CV_OPTION_ALPHA(offsetof(sa_options, selection)),
         CV_OPTION_FREQUENCY(offsetof(sa_options, selection)),
+        CV_OPTION_MASS_RATIO(offsetof(sa_options, selection)),
         CV_OPTION_DIGITS(offsetof(sa_options, selection)),
         CV_OPTION_FORMAT(offsetof(sa_options, selection)),
         {"xi", cv_set_number, offsetof(sa_options, xi), 0},
         {"quadrature", cv_set_flag, offsetof(sa_options, quadrature), 1},
+        {"from", cv_set_number, offsetof(sa_options, from), 0},
+        {"to", cv_set_number, offsetof(sa_options, to), 0},
+        {"points", cv_set_number, offsetof(sa_options, points), 0},
+        {"depth", cv_set_number, offsetof(sa_options, depth), 0},
         {NULL, NULL, 0, 0},
     };
     const char *names[COMMANDS + 1] = {NULL};
@@ -75,10 +89,17 @@ int main(int argc, char **argv)
     sa_options options;
     gsl_set_error_handler_off();
     cv_selection_init(&options.selection);
-    options.xi.given = options.quadrature = 0;
-    cv_number_init(&options.xi.value);
+    options.quadrature = 0;
+    options.times = NULL;
+    cv_optional_number *numbers[] = {&options.xi, &options.from, &options.to, &options.points,
+                                     &options.depth};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        numbers[i]->given = 0;
+        cv_number_init(&numbers[i]->value);
+    }
     int status = cv_main(&program, &options, argc, argv);
-    cv_number_clear(&options.xi.value);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        cv_number_clear(&numbers[i]->value);
     cv_selection_clear(&options.selection);
     return status;
 }

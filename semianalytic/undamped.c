@@ -4,6 +4,8 @@
 #include <gsl/gsl_poly.h>
 #include <math.h>
 
+static const long double NEAREST = 1e-11L; /* least reach relative to alpha */
+
 #define I_UNIT ((complex long double)_Complex_I)
 
 /* A function of x = p^2 and a = alpha^2 with the derivatives that are needed. */
@@ -156,12 +158,10 @@ cv_status sa_undamped_solve(sa_undamped *out, const sa_dispersion *track, long d
 {
     complex long double x[4], dx[4];
     int degree = start_values(x, track, alpha * alpha);
+    int done = degree > 0 && polish(x, degree, track, alpha * alpha);
 
     *out = (sa_undamped){.alpha = alpha};
-    if (degree == 0 || !polish(x, degree, track, alpha * alpha)) {
-        return cv_fail(why, CV_UNDECIDED, "the wave numbers at alpha = %.15Lg cannot be told apart", alpha);
-    }
-    for (int i = 0; i < degree; i++) {
+    for (int i = 0; i < degree && done; i++) {
         sa_undamped_pole pole;
         if (fabsl(cimagl(x[i])) <= 1e-13L * cabsl(x[i])) {
             x[i] = creall(x[i]);
@@ -172,7 +172,15 @@ cv_status sa_undamped_solve(sa_undamped *out, const sa_dispersion *track, long d
             out->pole[out->count++] = pole;
         }
     }
-    out->reach = shortest_reach(x, dx, degree);
+    out->reach = done ? shortest_reach(x, dx, degree) : 0;
+    /* weights lose LDBL_EPSILON alpha / reach */
+    if (!(out->reach >= NEAREST * alpha)) {
+        return cv_fail(
+            why, CV_UNDECIDED,
+            "two wave numbers meet at alpha = %.15Lg: a resonance velocity, where the undamped deflection is "
+            "infinite, or too near to where a decaying pair parts",
+            alpha);
+    }
     return CV_OK;
 }
 

@@ -35,7 +35,7 @@ typedef struct {
     long double reach;
 } sa_undamped;
 
-/* alpha >= 0. CV_UNDECIDED when two roots are too close for long double: at a resonance velocity, where the
+/* alpha >= 0. CV_UNDECIDED when two roots meet within 1e-11 of alpha: at a resonance velocity, where the
  * deflection is infinite, or where a decaying pair is about to become two. */
 cv_status sa_undamped_solve(sa_undamped *out, const sa_dispersion *track, long double alpha, cv_message *why);
 
