@@ -21,6 +21,7 @@ typedef cv_status sa_command(const sa_options *options, const cv_arguments *argu
 sa_command sa_command_kernel;     /* K(xi, q) and zeta at one (alpha, q) */
 sa_command sa_command_resonances; /* resonance and pseudocritical velocities of the moving force */
 sa_command sa_command_steady;     /* shape of the track under a moving constant force */
+sa_command sa_command_response;   /* deflection in time after the load is switched on */
 sa_command sa_command_roots;      /* mass-induced frequencies and growth rates */
 
 #endif

@@ -12,6 +12,7 @@ static const struct {
     {"resonances", sa_command_resonances},
     {"steady", sa_command_steady},
     {"roots", sa_command_roots},
+    {"response", sa_command_response},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -26,6 +27,7 @@ static const char help[] =
     "  resonances   resonance and pseudocritical velocities of the moving force\n"
     "  steady       shape of rail, sleepers and ballast under the moving force (text: CSV)\n"
     "  roots        roots of z = eta_M zeta = 1: mass-induced frequencies and growth rates\n"
+    "  response     deflection in time at the load and at xi, by inversion of (14) (text: CSV)\n"
     "\n"
     "FILE is a case file, e.g. data/paper.ini.\n"
     "\n"
@@ -37,6 +39,7 @@ static const char help[] =
     "  critvel-semianalytic resonances data/paper.ini --case 3 --digits 25 --format json\n"
     "  critvel-semianalytic steady data/paper.ini --case 3 --damping 0 --alpha 0.4 --from -60 --to 30\n"
     "  critvel-semianalytic roots data/paper.ini --case 1 --damping 0.05 --alpha 0.5 --mass-ratio 100\n"
+    "  critvel-semianalytic response data/paper.ini --alpha 0.5 --mass-ratio 100 --time 0:200:401\n"
     "\n"
     "options:\n"
     "  --case NAME      the section [case NAME] or [track NAME] (default: the first of the file)\n"
@@ -45,6 +48,7 @@ static const char help[] =
     "  --frequency X    q, dimensionless; qbar = i q\n"
     "  --xi X           distance from the load, dimensionless (default 0)\n"
     "  --mass-ratio X   eta_M of (11)\n"
+    "  --time T         response: t1,t2,... or a:b:n\n"
     "  --depth X        roots: stable ones down to Re qbar = -X (default 1)\n"
     "  --quadrature     K also by numerical integration along the real p axis (damped tracks)\n"
     "  --from X, --to X, --points N   steady: where the shape is written (default: 401 from -20 to 20)\n"
@@ -79,6 +83,7 @@ int main(int argc, char **argv)
         {"from", cv_set_number, offsetof(sa_options, from), 0},
         {"to", cv_set_number, offsetof(sa_options, to), 0},
         {"points", cv_set_number, offsetof(sa_options, points), 0},
+        {"time", cv_set_text, offsetof(sa_options, times), 0},
         {"depth", cv_set_number, offsetof(sa_options, depth), 0},
         {NULL, NULL, 0, 0},
     };
