@@ -8,7 +8,7 @@
 
 /* Velocities of the first look: steps of at most this part of alpha and of the range, and this many per
  * decade of the distance from a special velocity, down to this part of its width. */
-static const double RELATIVE_STEP = 0.06, RANGE_STEP = 0.02, FIRST = 0.3;
+static const double RELATIVE_STEP = 0.015, RANGE_STEP = 0.005, FIRST = 0.3;
 enum { PER_DECADE = 2 };
 
 cv_status dg_sweep_add(dg_sweep *s, size_t mass, const dg_find *find)
