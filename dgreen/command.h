@@ -18,5 +18,6 @@ typedef cv_status dg_command(const dg_options *options, const char *path, FILE *
 dg_command dg_command_z;           /* zeta (and z) at one point */
 dg_command dg_command_count;       /* unstable roots at one velocity */
 dg_command dg_command_transitions; /* all transitions over the velocity range */
+dg_command dg_command_roots;       /* mass-induced frequencies at one velocity */
 
 #endif

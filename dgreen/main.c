@@ -20,6 +20,9 @@ static const char help[] =
     "      number of unstable roots for every mass ratio of the case, by the winding of the curve z(iq)\n"
     "  critvel-dgreen transitions FILE --case 3 --damping 1e-10 --mass-ratio 100\n"
     "      all velocities of the range where that number changes, with q; default: every mass ratio\n"
+    "  critvel-dgreen roots FILE --alpha 0.3 --mass-ratio 100\n"
+    "      roots qbar of z = 1: growth rates and frequencies of all unstable ones and the nearest stable "
+    "ones\n"
     "\n"
     "FILE is a case file; the mass is on the edge of instability where z = 1.\n"
     "\n"
@@ -44,8 +47,9 @@ static const cv_option options[] = {CV_OPTION_CASE(offsetof(dg_options, selectio
                                     {NULL, NULL, 0, 0}};
 
 /* One row per subcommand; names[i] belongs to commands[i]. */
-static const char *const names[] = {"z", "count", "transitions", NULL};
-static dg_command *const commands[] = {dg_command_z, dg_command_count, dg_command_transitions};
+static const char *const names[] = {"z", "count", "transitions", "roots", NULL};
+static dg_command *const commands[] = {dg_command_z, dg_command_count, dg_command_transitions,
+                                       dg_command_roots};
 
 static cv_status work(const void *typed, const cv_arguments *arguments, FILE *out, FILE *log, cv_message *why)
 {

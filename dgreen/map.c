@@ -30,7 +30,7 @@ static void enter(row *r, size_t i, double complex qbar)
 static void follow(row *r, const dg_probe *probe, const dg_curve *curve, const dg_crossing *crossing)
 {
     dg_path path;
-    if (dg_path_start(&path, probe, &curve->at, crossing->q) != CV_OK)
+    if (dg_path_enter(&path, probe, curve, crossing) != CV_OK)
         return;
     for (size_t i = 0; i < r->count; i++) {
         const double x = 1 / r->mass_ratios[i];

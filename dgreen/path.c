@@ -9,8 +9,8 @@ static const double CORRECTION = 0.4;
 static const double SMALLEST = 1e-5;
 enum { STEPS = 3000, CORRECTIONS = 3, POLISHES = 6 };
 
-/* Distance from qbar to the nearest singularity of zeta; damping has moved a branch point to -width + i q. */
-static double room(const dg_station *s, double complex qbar)
+/* Damping has moved a branch point to -width + i q. */
+double dg_path_room(const dg_station *s, double complex qbar)
 {
     double distance = cabs(qbar);
     for (size_t i = 0; i < s->count; i++)
@@ -27,6 +27,20 @@ cv_status dg_path_start(dg_path *p, const dg_probe *probe, const dg_station *sta
         dg_continued_start(&p->at, probe->follow, probe->track, station->alpha, q, aside);
     if (status == CV_OK)
         p->value = dg_continued_zeta(&p->at);
+    return status;
+}
+
+cv_status dg_path_enter(dg_path *p, const dg_probe *probe, const dg_curve *curve, const dg_crossing *crossing)
+{
+    static const double BESIDE = 1e-9;
+    if (isfinite(crossing->x))
+        return dg_path_start(p, probe, &curve->at, crossing->q);
+    dg_path other;
+    cv_status status = dg_path_start(p, probe, &curve->at, crossing->q * (1 - BESIDE));
+    if (status == CV_OK)
+        status = dg_path_start(&other, probe, &curve->at, crossing->q * (1 + BESIDE));
+    if (status == CV_OK && creal(other.value) > creal(p->value))
+        *p = other; /* zeta is nearly real on this side */
     return status;
 }
 
@@ -56,7 +70,7 @@ static cv_status polish(dg_path *p, double complex target)
     double last = HUGE_VAL;
     for (int i = 0; i < POLISHES; i++) {
         double complex slope;
-        cv_status status = dg_continued_slope(&slope, &p->at, room(p->station, p->at.qbar));
+        cv_status status = dg_continued_slope(&slope, &p->at, dg_path_room(p->station, p->at.qbar));
         const double complex change = (target - p->value) / slope;
         if (status != CV_OK || !(cabs(change) < last / 2))
             return status;
@@ -75,7 +89,7 @@ cv_status dg_path_go(dg_path *p, double complex target)
     for (int i = 0; i < STEPS; i++) {
         double complex slope;
         int accepted;
-        const double reach = room(p->station, p->at.qbar);
+        const double reach = dg_path_room(p->station, p->at.qbar);
         if (dg_continued_slope(&slope, &p->at, reach) != CV_OK)
             return CV_UNDECIDED;
         const double whole = cabs((target - p->value) / slope), most = shrink * STEP * reach;

@@ -17,6 +17,14 @@ typedef struct {
 /* Begins at qbar = i q on the curve. CV_UNDECIDED as dg_continued_start. */
 cv_status dg_path_start(dg_path *p, const dg_probe *probe, const dg_station *station, double q);
 
+/* Begins where a root enters or leaves the right half-plane. Without damping a crossing may be at infinity,
+ * at a branch point; then it begins beside that. */
+cv_status dg_path_enter(dg_path *p, const dg_probe *probe, const dg_curve *curve,
+                        const dg_crossing *crossing);
+
+/* Distance from qbar to the nearest singularity of zeta, to first order in the damping. */
+double dg_path_room(const dg_station *station, double complex qbar);
+
 /* Follows zeta(qbar) along the straight line from its present value to the target, which may be complex; then
  * improves qbar as far as double goes. CV_UNDECIDED: two roots meet, or a branch point is hit. */
 cv_status dg_path_go(dg_path *p, double complex target);

@@ -92,32 +92,62 @@ static int side(const dg_mp_roots *roots, int i)
     return (mpfr_sgn(im) < 0) != far ? 1 : -1;
 }
 
+static void reset(dg_mp_residues *r)
+{
+    r->right_count = r->left_count = 0;
+    r->re_error = r->im_error = 0;
+    mpc_set_ui(r->right, 0, CRND);
+    mpc_set_ui(r->left, 0, CRND);
+}
+
+/* Adds the residue of root i to one of the sums; error: of left and right */
+static void add_to(dg_mp_residues *r, double error[2], const dg_mp_operator *op, const dg_mp_roots *roots,
+                   int i, int right)
+{
+    const double own = residue(r, op, roots, i);
+    mpc_ptr sum = right ? r->right : r->left;
+    mpc_add(sum, sum, r->residue, CRND);
+    error[right] += own + 16 * dg_mp_modulus(r->residue);
+    r->right_count += right;
+    r->left_count += !right;
+}
+
+/* The sum of all residues is 0. */
+static cv_status check_sums(dg_mp_residues *r, const double error[2], const dg_mp_roots *roots)
+{
+    mpc_add(r->left, r->left, r->right, CRND);
+    r->re_error = r->im_error = error[1];
+    return dg_mp_units(r->left, roots->precision) <= error[0] + error[1] ? CV_OK : CV_FAILED;
+}
+
 cv_status dg_mp_residues_sum(dg_mp_residues *r, const dg_mp_operator *op, const dg_mp_roots *roots)
 {
     double error[2] = {0, 0}; /* left, right */
-    r->right_count = r->left_count = 0;
-    mpc_set_ui(r->right, 0, CRND);
-    mpc_set_ui(r->left, 0, CRND);
+    reset(r);
     for (int i = 0; i < roots->count; i++) {
         const int to = side(roots, i), far = roots->far && i == roots->count - 1;
         if (to == 0 && !far)
             return CV_UNDECIDED;
-        const double own = residue(r, op, roots, i);
         if (to == 0) {
+            const double own = residue(r, op, roots, i);
             const double whole = dg_mp_units(r->residue, roots->precision) + own;
             error[0] += whole;
             error[1] += whole;
             continue;
         }
-        mpc_ptr sum = to > 0 ? r->right : r->left;
-        mpc_add(sum, sum, r->residue, CRND);
-        error[to > 0] += own + 16 * dg_mp_modulus(r->residue);
-        r->right_count += to > 0;
-        r->left_count += to < 0;
+        add_to(r, error, op, roots, i, to > 0);
     }
-    mpc_add(r->left, r->left, r->right, CRND);
-    r->re_error = r->im_error = error[1];
-    return dg_mp_units(r->left, roots->precision) <= error[0] + error[1] ? CV_OK : CV_FAILED;
+    return check_sums(r, error, roots);
+}
+
+cv_status dg_mp_residues_sum_chosen(dg_mp_residues *r, const dg_mp_operator *op, const dg_mp_roots *roots,
+                                    unsigned chosen)
+{
+    double error[2] = {0, 0};
+    reset(r);
+    for (int i = 0; i < roots->count; i++)
+        add_to(r, error, op, roots, i, (int)(chosen >> i & 1u));
+    return check_sums(r, error, roots);
 }
 
 /* Sign of t = q - alpha y at the real root i, 0 where its interval leaves it open. For the far root

@@ -19,6 +19,11 @@ void dg_mp_residues_clear(dg_mp_residues *r);
 /* Damping or Re qbar > 0. CV_UNDECIDED and CV_FAILED as dg_residues_sum. */
 cv_status dg_mp_residues_sum(dg_mp_residues *r, const dg_mp_operator *op, const dg_mp_roots *roots);
 
+/* The same with the roots i whose bit i of "chosen" is set in place of those with Re lambda > 0 (for a sum
+ * continued beyond the half-plane of convergence). Never CV_UNDECIDED. */
+cv_status dg_mp_residues_sum_chosen(dg_mp_residues *r, const dg_mp_operator *op, const dg_mp_roots *roots,
+                                    unsigned chosen);
+
 /* No damping, qbar = i q + 0, q > 0; roots found with on_axis.
  *
  * Coefficients are real, so roots y are real or come in conjugate pairs. At a real root the symmetric matrix

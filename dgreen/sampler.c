@@ -1,5 +1,6 @@
 #include "dgreen/sampler.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "dgreen/winding.h"
@@ -32,6 +33,17 @@ dg_probe dg_sampler_probe(const dg_sampler *s)
     return (dg_probe){s->track, s->follow, s->branches};
 }
 
+/* zeta ~ C/sqrt(q - q_b): what passes the real axis inside a bracket that holds q_b passes it at infinity. */
+static void send_to_infinity(dg_curve *c)
+{
+    for (size_t i = 0; i < c->crossing_count; i++) {
+        dg_crossing *x = &c->crossings[i];
+        for (size_t k = 0; k < c->at.count; k++)
+            if (!c->at.points[k].soft && c->at.points[k].q >= x->q_low && c->at.points[k].q <= x->q_high)
+                x->x = x->x_low = x->x_high = INFINITY;
+    }
+}
+
 cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_message *why)
 {
     const dg_probe probe = dg_sampler_probe(s);
@@ -41,6 +53,8 @@ cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_messa
             return cv_fail(why, CV_UNDECIDED,
                            "no damping and no radiation at alpha = %.17g, q = %.17g: z is real there", alpha,
                            s->curve.nodes[i].q);
+    if (status == CV_OK && !s->track->damped)
+        send_to_infinity(&s->curve);
     return status;
 }
 

@@ -21,7 +21,8 @@ void dg_sampler_clear(dg_sampler *s);
 /* For the functions of curve.h */
 dg_probe dg_sampler_probe(const dg_sampler *s);
 
-/* The curve at alpha down to x_floor (dg_curve_at). Without damping also CV_UNDECIDED where the curve runs
+/* The curve at alpha down to x_floor (dg_curve_at). Without damping the curve goes to infinity at every
+ * branch point, from one axis to the other: a crossing there has x = INFINITY. And CV_UNDECIDED where it runs
  * along the real axis (no wave is radiated there): then the limit of small damping is not that of none. */
 cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_message *why);
 
