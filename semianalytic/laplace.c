@@ -48,6 +48,24 @@ cv_status sa_sheet_start(sa_sheet *s, const sa_track *t, double alpha, double co
     return CV_OK;
 }
 
+cv_status sa_sheet_far(sa_sheet *s, const sa_track *t, double alpha, double complex q)
+{
+    const double converged = 1e-12, certain = 0.1;
+    *s = (sa_sheet){.track = t, .alpha = alpha, .q = q, .count = 4};
+    for (int i = 0; i < s->count; i++) {
+        sa_point m;
+        double sign = i < 2 ? 1 : -1;
+        double complex root = csqrt(alpha * alpha + sign * 2 * q);
+        s->p[i] = -sign * alpha + (i % 2 ? root : -root);
+        sa_poles_newton(&s->p[i], &m, t, alpha, q);
+        s->upper[i] = cimag(s->p[i]) > 0;
+        if (!(cabs(m.det / m.det_p) < fmin(converged * cabs(m.p), certain * fabs(cimag(m.p)))))
+            return CV_UNDECIDED;
+    }
+    set_slopes(s);
+    return s->upper[0] + s->upper[1] == 1 && s->upper[2] + s->upper[3] == 1 ? CV_OK : CV_UNDECIDED;
+}
+
 /* Distance to the nearest other pole. */
 static double room(const sa_sheet *s, int i)
 {

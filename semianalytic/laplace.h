@@ -35,6 +35,11 @@ typedef struct {
  * track). CV_FAILED: LAPACK. */
 cv_status sa_sheet_start(sa_sheet *s, const sa_track *t, double alpha, double complex q);
 
+/* For large |q|, Im q < 0: the four poles of the beam alone, from p^2 = +-2 (q - alpha p). Those left out, p
+ * about q/alpha on sleepers and ballast, have residues smaller by a factor of order kappa_p^(3/2) (alpha/q)^8
+ * q^(3/2), and eigenvalue solvers lose the four beside them. CV_UNDECIDED: Newton's iteration fails. */
+cv_status sa_sheet_far(sa_sheet *s, const sa_track *t, double alpha, double complex q);
+
 /* Follows all poles along the straight line from s->q to q. CV_UNDECIDED: two come too close to be told
  * apart, that is the line passes a branch point. */
 cv_status sa_sheet_move(sa_sheet *s, double complex q);

@@ -43,9 +43,11 @@ static int rule_set(rule *r)
 /* W = K(xi) / (i pi q (1 - eta_M zeta)) */
 static cv_status image_at(double complex *w, const sa_image *image, double x)
 {
+    const double far = 1e4;
     sa_sheet sheet;
     const double complex q = CMPLX(x, -image->height);
-    cv_status status = sa_sheet_start(&sheet, image->track, image->alpha, q);
+    cv_status status = x < far ? sa_sheet_start(&sheet, image->track, image->alpha, q)
+                               : sa_sheet_far(&sheet, image->track, image->alpha, q);
     if (status == CV_OK)
         *w = sa_sheet_kernel(&sheet, image->xi) /
              (CMPLX(0, pi) * q * (1 - image->mass * sa_sheet_zeta(NULL, &sheet)));
@@ -109,7 +111,7 @@ static cv_status panels_between(build *b, double from, double to, int depth)
 static cv_status all_panels(build *b)
 {
     enum { DEPTH_MAX = 30 };
-    const double largest = 1e6, growth = 0.35;
+    const double largest = 1e7, growth = 0.35;
     double from = 0;
     double complex w = 0;
     cv_status status = CV_OK;

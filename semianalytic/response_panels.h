@@ -27,10 +27,9 @@ typedef struct {
     double error; /* estimated error of the integral of |W - its Legendre sums|, and of rounding */
 } sa_panels;
 
-/* Panels from 0 to where the rest, |W| falling like x^(-5/2) or faster, no longer matters, at most 1e6 (then
- * doubles lose the poles of the beam beside the far ones). Each is halved until its last coefficients are
- * below 1e-14 of the whole. CV_UNDECIDED: the kernel is not to be had somewhere. On failure nothing is
- * allocated. */
+/* Panels from 0 to where the rest, |W| falling like x^(-5/2) or faster, no longer matters, at most 1e7. Each
+ * is halved until its last coefficients are below 1e-14 of the whole. CV_UNDECIDED: the kernel is not to be
+ * had somewhere. On failure nothing is allocated. */
 cv_status sa_panels_build(sa_panels *out, const sa_image *image, cv_message *why);
 void sa_panels_clear(sa_panels *p);
 
