@@ -9,7 +9,9 @@
 /* Prepared for one track and a range of velocities; one thread at a time. */
 typedef struct dg_counter dg_counter;
 
-/* 0 < alpha_min <= alpha_max. params must have passed cv_params_check and have damping (CV_BAD_INPUT). */
+/* 0 < alpha_min <= alpha_max. params must have passed cv_params_check. Without damping: the limit of
+ * dgreen/sampler.h.
+ */
 cv_status dg_counter_new(dg_counter **out, const cv_params *params, double alpha_min, double alpha_max,
                          cv_message *why);
 void dg_counter_free(dg_counter *c); /* NULL allowed */

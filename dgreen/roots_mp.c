@@ -202,7 +202,8 @@ static cv_status enclose(dg_mp_roots *roots, const dg_mp_operator *op)
     return dg_separate(roots->radius, roots->slope_relative, roots->crowding, &s);
 }
 
-/* Starting values; those that double could not tell apart are moved apart, for the iteration cannot. */
+/* Starting values; those that double could not tell apart are moved apart, for the iteration cannot. Off the
+ * axis, too: of real coefficients and real starts it makes nothing but real numbers, never a pair. */
 static void set_start(dg_mp_roots *roots, const dg_roots *start)
 {
     const int near = start->count - start->far;
@@ -214,7 +215,7 @@ static void set_start(dg_mp_roots *roots, const dg_roots *start)
     for (int i = 0; i < start->count; i++) {
         double shift = 0;
         for (int k = 0; k < i && i < near; k++)
-            if (hypot(start->re[i] - start->re[k], start->im[i] - start->im[k]) < 1e-10 * scale)
+            if (hypot(start->re[i] - start->re[k], start->im[i] - start->im[k]) < 1e-6 * scale)
                 shift += 1e-9 * scale;
         mpc_set_d_d(roots->y[i], start->re[i] + 0.6 * shift, start->im[i] + 0.8 * shift, CRND);
     }

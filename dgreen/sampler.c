@@ -5,11 +5,29 @@
 
 #include "dgreen/winding.h"
 
+/* The track, with as good as no damping in place of none where the undamped one may be silent */
+static cv_status make_track(dg_sampler *s, const cv_params *params, cv_message *why)
+{
+    s->undamped = cv_params_undamped(params);
+    if (!s->undamped || cv_number_sign(&params->eta_s) == 0)
+        return dg_track_new(&s->track, params, why);
+    cv_params limit;
+    cv_params_init(&limit);
+    cv_params_set(&limit, params);
+    cv_status status = cv_number_parse(&limit.eta_p, "1e-30", why);
+    cv_number_set(&limit.eta_b, &limit.eta_p);
+    cv_number_set(&limit.eta_f, &limit.eta_p);
+    if (status == CV_OK)
+        status = dg_track_new(&s->track, &limit, why);
+    cv_params_clear(&limit);
+    return status;
+}
+
 cv_status dg_sampler_init(dg_sampler *s, const cv_params *params, double alpha_min, double alpha_max,
                           cv_message *why)
 {
     memset(s, 0, sizeof *s);
-    cv_status status = dg_track_new(&s->track, params, why);
+    cv_status status = make_track(s, params, why);
     if (status == CV_OK)
         status = dg_follow_new(&s->follow, why);
     if (status == CV_OK)
@@ -33,14 +51,19 @@ dg_probe dg_sampler_probe(const dg_sampler *s)
     return (dg_probe){s->track, s->follow, s->branches};
 }
 
-/* zeta ~ C/sqrt(q - q_b): what passes the real axis inside a bracket that holds q_b passes it at infinity. */
+/* zeta ~ C/sqrt(q - q_b): what passes the real axis next to q_b, as near as that is known in double, passes it
+ * at infinity. */
 static void send_to_infinity(dg_curve *c)
 {
+    static const double ROUNDING = 1e-13;
     for (size_t i = 0; i < c->crossing_count; i++) {
         dg_crossing *x = &c->crossings[i];
-        for (size_t k = 0; k < c->at.count; k++)
-            if (!c->at.points[k].soft && c->at.points[k].q >= x->q_low && c->at.points[k].q <= x->q_high)
+        for (size_t k = 0; k < c->at.count; k++) {
+            const dg_branch_point *point = &c->at.points[k];
+            const double near = ROUNDING * point->q;
+            if (!point->soft && point->q >= x->q_low - near && point->q <= x->q_high + near)
                 x->x = x->x_low = x->x_high = INFINITY;
+        }
     }
 }
 
@@ -48,12 +71,7 @@ cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_messa
 {
     const dg_probe probe = dg_sampler_probe(s);
     const cv_status status = dg_curve_at(&s->curve, &probe, alpha, x_floor, why);
-    for (size_t i = 0; status == CV_OK && i < s->curve.node_count; i++)
-        if (s->curve.nodes[i].im == 0 && s->curve.nodes[i].re > x_floor)
-            return cv_fail(why, CV_UNDECIDED,
-                           "no damping and no radiation at alpha = %.17g, q = %.17g: z is real there", alpha,
-                           s->curve.nodes[i].q);
-    if (status == CV_OK && !s->track->damped)
+    if (status == CV_OK && s->undamped)
         send_to_infinity(&s->curve);
     return status;
 }

@@ -10,10 +10,16 @@ typedef struct {
     dg_follow *follow;
     dg_branch_curves *branches;
     dg_curve curve; /* the last one sampled; its memory is used again */
+    int undamped;   /* the damping of params is zero */
 } dg_sampler;
 
-/* 0 < alpha_min <= alpha_max; params must have passed cv_params_check. Damping may be zero: then every value
- * is the limit qbar -> i q + 0. One thread at a time. On failure nothing is allocated. */
+/* 0 < alpha_min <= alpha_max; params must have passed cv_params_check. One thread at a time. On failure
+ * nothing is allocated.
+ *
+ * Damping may be zero: then all is the limit of equal vanishing damping ratios. Where waves are radiated that
+ * is the limit qbar -> i q + 0 of the undamped track. With shear stiffness (eta_s > 0) there are velocities
+ * and frequencies without radiation, Im zeta is zero and the sign of its derivative with respect to damping
+ * counts; then track has damping ratios of 1e-30, so that zeta is the limit to all digits of a double. */
 cv_status dg_sampler_init(dg_sampler *s, const cv_params *params, double alpha_min, double alpha_max,
                           cv_message *why);
 void dg_sampler_clear(dg_sampler *s);
@@ -21,9 +27,8 @@ void dg_sampler_clear(dg_sampler *s);
 /* For the functions of curve.h */
 dg_probe dg_sampler_probe(const dg_sampler *s);
 
-/* The curve at alpha down to x_floor (dg_curve_at). Without damping the curve goes to infinity at every
- * branch point, from one axis to the other: a crossing there has x = INFINITY. And CV_UNDECIDED where it runs
- * along the real axis (no wave is radiated there): then the limit of small damping is not that of none. */
+/* The curve at alpha down to x_floor (dg_curve_at). Without damping it goes to infinity at every branch
+ * point, from one axis to the other: a crossing there has x = INFINITY. */
 cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_message *why);
 
 /* Number of roots of zeta = x > x_floor with Re qbar > 0, from the curve (dg_winding, with the crossings near
