@@ -3,10 +3,14 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "dgreen/mass_roots_refine.h"
 #include "dgreen/path.h"
 
 /* The curve is listed down to this part of the smallest 1/eta_M. */
 static const double FLOOR = 0.3;
+/* Growth rates smaller than this part of the frequency are computed in MPFR, to so many digits. */
+static const double DOUBTFUL = 1e-9;
+enum { DIGITS = 9 };
 
 typedef struct {
     dg_map_cell *cells;
@@ -15,14 +19,35 @@ typedef struct {
     const double *mass_ratios;
 } row;
 
-static void enter(row *r, size_t i, double complex qbar)
+static void enter(row *r, size_t i, double growth, double frequency)
 {
     dg_map_cell *cell = &r->cells[i];
     r->found[i]++;
-    if (creal(qbar) > cell->growth) {
-        cell->growth = creal(qbar);
-        cell->frequency = cimag(qbar);
+    if (growth > cell->growth) {
+        cell->growth = growth;
+        cell->frequency = frequency;
     }
+}
+
+/* Re qbar of a root so near the axis that double does not tell; NAN where that cannot be had. */
+static double rate_from_digits(const dg_path *path, double x)
+{
+    double complex slope;
+    dg_mass_root root;
+    cv_number alpha, mass_ratio;
+    if (dg_continued_slope(&slope, &path->at, dg_path_room(path->station, path->at.qbar)) != CV_OK)
+        return NAN;
+    cv_number_init(&alpha);
+    cv_number_init(&mass_ratio);
+    mpq_set_d(alpha.factor, path->at.alpha);
+    mpq_set_d(mass_ratio.factor, x);
+    mpq_inv(mass_ratio.factor, mass_ratio.factor);
+    const cv_status status = dg_mass_root_refine(&root, &path->at, slope, &alpha, &mass_ratio, DIGITS, NULL);
+    const double rate = status == CV_OK ? mpfr_get_d(root.re, MPFR_RNDN) : (double)NAN;
+    mpfr_clears(root.re, root.im, (mpfr_ptr)0);
+    cv_number_clear(&alpha);
+    cv_number_clear(&mass_ratio);
+    return rate;
 }
 
 /* Follows the root that enters at this crossing through all greater mass ratios until it leaves the right
@@ -36,9 +61,14 @@ static void follow(row *r, const dg_probe *probe, const dg_curve *curve, const d
         const double x = 1 / r->mass_ratios[i];
         if (x >= crossing->x)
             continue;
-        if (dg_path_go(&path, x) != CV_OK || !(creal(path.at.qbar) > 0))
+        if (dg_path_go(&path, x) != CV_OK)
             return;
-        enter(r, i, path.at.qbar);
+        double rate = creal(path.at.qbar);
+        if (!(fabs(rate) > DOUBTFUL * cabs(path.at.qbar)))
+            rate = rate_from_digits(&path, x);
+        if (!(rate > 0))
+            return;
+        enter(r, i, rate, cimag(path.at.qbar));
     }
 }
 

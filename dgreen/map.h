@@ -15,8 +15,8 @@ typedef struct {
     double frequency; /* Im qbar of that root; 0, NAN likewise */
 } dg_map_cell;
 
-/* One velocity: cells[i] for mass_ratios[i], ascending and > 0. Growth rates to about 1e-8 of themselves or
- * 1e-14. CV_UNDECIDED: the curve could not be sampled; all cells are then undecided. */
+/* One velocity: cells[i] for mass_ratios[i], ascending and > 0. Growth rates to six digits. CV_UNDECIDED: the
+ * curve could not be sampled; all cells are then undecided. */
 cv_status dg_map_row(dg_map_cell *cells, dg_sampler *s, double alpha, size_t mass_count,
                      const double *mass_ratios, cv_message *why);
 

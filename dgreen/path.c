@@ -32,16 +32,15 @@ cv_status dg_path_start(dg_path *p, const dg_probe *probe, const dg_station *sta
 
 cv_status dg_path_enter(dg_path *p, const dg_probe *probe, const dg_curve *curve, const dg_crossing *crossing)
 {
-    static const double BESIDE = 1e-9;
+    static const double BESIDE = 1e-8;
     if (isfinite(crossing->x))
         return dg_path_start(p, probe, &curve->at, crossing->q);
     dg_path other;
-    cv_status status = dg_path_start(p, probe, &curve->at, crossing->q * (1 - BESIDE));
-    if (status == CV_OK)
-        status = dg_path_start(&other, probe, &curve->at, crossing->q * (1 + BESIDE));
-    if (status == CV_OK && creal(other.value) > creal(p->value))
+    const cv_status below = dg_path_start(p, probe, &curve->at, crossing->q * (1 - BESIDE));
+    const cv_status above = dg_path_start(&other, probe, &curve->at, crossing->q * (1 + BESIDE));
+    if (above == CV_OK && (below != CV_OK || creal(other.value) > creal(p->value)))
         *p = other; /* zeta is nearly real on this side */
-    return status;
+    return above == CV_OK ? CV_OK : below;
 }
 
 /* One step to the value "next"; *accepted tells whether prediction and correction agree. */
