@@ -122,6 +122,37 @@ static cv_status scan_side(const scan *sc)
     return status;
 }
 
+/* Im zeta changes its sign within the gap of a curve (map.h): there |zeta| ~ 1/sqrt(distance) is larger
+ * than at either side of the gap, and Re zeta has the sign it has on the side where it is large. */
+static cv_status gap_crossing(const scan *below, const scan *above)
+{
+    const double large = 100;
+    sa_sample a, b;
+    cv_status status = sample(&a, below, 0);
+    if (status == CV_OK)
+        status = sample(&b, above, 0);
+    if (status != CV_OK || (a.im > 0) == (b.im > 0))
+        return status;
+    double size = fmin(hypot(a.re, a.im), hypot(b.re, b.im));
+    double sign = fabs(a.re) > fabs(b.re) ? a.re : b.re;
+    return append(below->out, (sa_crossing){.q = b.q,
+                                            .re = copysign(size, sign),
+                                            .re_error = size > large ? size / 4 : INFINITY,
+                                            .direction = a.im > 0 ? 1 : -1});
+}
+
+static cv_status scan_gaps(const sa_map_node *node, sa_field *field, double re_low, sa_crossings *out)
+{
+    cv_status status = CV_OK;
+    for (int curve = 1; curve < node->count - 1 && status == CV_OK; ++curve) {
+        const scan below = {node, field, re_low, out, curve - 1, 1},
+                   above = {node, field, re_low, out, curve, 0};
+        if (node->gap[curve] > 0)
+            status = gap_crossing(&below, &above);
+    }
+    return status;
+}
+
 cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
                             double re_low, cv_message *why)
 {
@@ -133,6 +164,8 @@ cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *fiel
             scan sc = {&node, field, re_low, out, strip, side};
             status = scan_side(&sc);
         }
+    if (status == CV_OK)
+        status = scan_gaps(&node, field, re_low, out);
     if (status == CV_OK)
         return CV_OK;
     sa_crossings_clear(out);

@@ -1,4 +1,4 @@
-#include "semianalytic/map.h"
+#include "semianalytic/map_build.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,30 +20,49 @@ static void place_velocity(sa_map_node *node, const sa_column *c, int side, doub
     node->alpha_u = (side ? -1 : 1) * length * exp(u * extent) * extent;
 }
 
-static cv_status place_arc(sa_map_node *node, int i, const sa_branch_curves *curves,
-                           const sa_map_curve *curve)
+static double limited(double slope, double limit)
 {
-    const sa_branch_arc *arc = &curves->arc[curve->arc];
+    return fmin(fmax(slope, -limit), limit);
+}
+
+/* Where the damping is below what doubles resolve, the curve keeps a distance: zeta is then so large that
+ * nothing of interest is nearer. Falls to zero, with its slope, as the damping grows. */
+static void place_gap(sa_map_node *node, int i, double damping, double damping_slope)
+{
+    double resolved = 2e-13 * (1 + node->q[i]), x = damping / resolved;
+    node->gap[i] = x < 1 ? resolved / 2 * (1 - x * x) * (1 - x * x) : 0;
+    node->gap_slope[i] = x < 1 ? -2 * x * (1 - x * x) * damping_slope : 0;
+}
+
+static cv_status place_arc(sa_map_node *node, int i, const sa_map *map, int number)
+{
+    const sa_branch_arc *arc = &map->curves.arc[number];
     sa_wave wave;
     long double q, alpha = node->alpha;
     alpha = fminl(fmaxl(alpha, arc->alpha_low), arc->alpha_high);
-    if (sa_branch_arc_at(&wave, &q, curves, (size_t)curve->arc, alpha) != CV_OK)
+    if (sa_branch_arc_at(&wave, &q, &map->curves, (size_t)number, alpha) != CV_OK || !isfinite(wave.p))
         return CV_FAILED;
-    double slope = (double)(q < 0 ? wave.p : -wave.p) * arc->direction;
+    double slope = (double)(q < 0 ? wave.p : -wave.p) * arc->direction, along_p;
+    double damping = sa_map_damping(&along_p, map, &wave);
+    double damping_slope =
+        along_p / (double)(arc->direction * wave.d[2]); /* d alpha / dp = direction omega'' */
     node->q[i] = (double)fabsl(q);
-    node->slope[i] = fmin(fmax(slope, -slope_limit), slope_limit);
-    node->length[i] = curve->length;
-    node->length_slope[i] = 0;
+    node->slope[i] = limited(slope, slope_limit);
+    node->length[i] = sa_map_grading(damping, node->q[i]);
+    /* at a cusp the damping has a slope like 1 / sqrt(distance) that changes nothing */
+    damping_slope = limited(damping_slope, 1e5 * node->length[i]);
+    node->length_slope[i] = 0.1 * damping_slope;
+    place_gap(node, i, damping, damping_slope);
     return CV_OK;
 }
 
-static void place_ghost(sa_map_node *node, int i, const sa_ghost *ghost, const sa_map_curve *curve)
+static void place_ghost(sa_map_node *node, int i, const sa_ghost *ghost)
 {
     double beyond = node->alpha - ghost->alpha, q = ghost->q + ghost->slope * beyond;
     double off = 0.3 * ghost->width * pow(fabs(beyond), 1.5);
     node->q[i] = fabs(q);
     node->slope[i] = q < 0 ? -ghost->slope : ghost->slope;
-    node->length[i] = curve->length + off;
+    node->length[i] = sa_map_grading(ghost->damping, node->q[i]) + off;
     node->length_slope[i] = beyond == 0 ? 0 : 1.5 * off / beyond;
 }
 
@@ -74,13 +93,14 @@ static cv_status place_curves(sa_map_node *node, const sa_map *map, const sa_col
 {
     const double bottom = 1e-5; /* zeta ~ q^2: nothing but a power law below */
     node->count = c->count + 2;
+    for (int i = 0; i < node->count; ++i)
+        node->gap[i] = node->gap_slope[i] = 0;
     node->q[0] = node->slope[0] = node->length_slope[0] = 0;
     node->length[0] = bottom;
     for (int i = 0; i < c->count; ++i) {
-        const sa_map_curve *curve = &c->curve[i];
-        if (curve->arc < 0)
-            place_ghost(node, i + 1, &map->ghost[-1 - curve->arc], curve);
-        else if (place_arc(node, i + 1, &map->curves, curve) != CV_OK)
+        if (c->curve[i] < 0)
+            place_ghost(node, i + 1, &map->ghost[-1 - c->curve[i]]);
+        else if (place_arc(node, i + 1, map, c->curve[i]) != CV_OK)
             return CV_FAILED;
         node->q[i + 1] = fmax(node->q[i + 1], node->q[i]); /* rounding where curves meet */
     }
@@ -119,17 +139,18 @@ int sa_map_strip_sides(const sa_map_node *node, int strip)
     return strip == node->count - 2 ? 1 : 2;
 }
 
-/* Width of one side of a strip and d width / d alpha. */
-static double side_width(double *slope, const sa_map_node *node, int strip)
+/* Width of one side of a strip without its gap, and d width / d alpha. */
+static double side_width(double *slope, const sa_map_node *node, int strip, int side)
 {
-    int sides = sa_map_strip_sides(node, strip);
-    *slope = (node->slope[strip + 1] - node->slope[strip]) / sides;
-    return (node->q[strip + 1] - node->q[strip]) / sides;
+    int sides = sa_map_strip_sides(node, strip), curve = strip + side;
+    double width = (node->q[strip + 1] - node->q[strip]) / sides - node->gap[curve];
+    *slope = width > 0 ? (node->slope[strip + 1] - node->slope[strip]) / sides - node->gap_slope[curve] : 0;
+    return fmax(width, 0);
 }
 
 double sa_map_strip_extent(const sa_map_node *node, int strip, int side)
 {
-    double slope, width = side_width(&slope, node, strip);
+    double slope, width = side_width(&slope, node, strip, side);
     return log1p(width / node->length[strip + side]);
 }
 
@@ -137,16 +158,16 @@ void sa_map_point_at(sa_map_point *out, const sa_map_node *node, int strip, int 
 {
     int curve = strip + side;
     double sign = side ? -1 : 1, length = node->length[curve], grown = node->length_slope[curve];
-    double slope, width = side_width(&slope, node, strip);
+    double slope, width = side_width(&slope, node, strip, side);
     double ratio = width / length, extent = log1p(ratio);
     double extent_slope = (slope - ratio * grown) / (length + width);
     double power = exp(t * extent), distance = t == 1 ? width : length * expm1(t * extent);
+    double along = grown * expm1(t * extent) + length * power * t * extent_slope;
     out->alpha = node->alpha;
     out->alpha_u = node->alpha_u;
-    out->q = node->q[curve] + sign * distance;
+    out->q = node->q[curve] + sign * (node->gap[curve] + distance);
     out->q_t = sign * length * power * extent;
-    double along = grown * expm1(t * extent) + length * power * t * extent_slope;
-    out->q_u = (node->slope[curve] + sign * along) * node->alpha_u;
+    out->q_u = (node->slope[curve] + sign * (node->gap_slope[curve] + along)) * node->alpha_u;
 }
 
 void sa_map_clear(sa_map *map)

@@ -29,19 +29,15 @@ enum { SA_MAP_CURVES_MAX = 30 };
 typedef struct {
     double alpha, q, slope; /* the cusp, q signed; dq/dalpha there */
     double width;           /* the branch points are width |alpha - alpha_c|^(3/2) off the real axis */
+    double damping;         /* of the wave at the cusp */
     double end;             /* velocity at which it may be forgotten */
 } sa_ghost;
-
-typedef struct {
-    int arc;       /* of the branch curves, or -1 - number of a ghost */
-    double length; /* grading length b */
-} sa_map_curve;
 
 typedef struct {
     double alpha_low, alpha_high;
     double length_low, length_high; /* grading lengths a */
     int count;                      /* curves, q ascending, without q = 0 and q_top */
-    sa_map_curve curve[SA_MAP_CURVES_MAX];
+    int curve[SA_MAP_CURVES_MAX];   /* arc of the branch curves, or -1 - number of a ghost */
     double q_top;
 } sa_column;
 
@@ -67,6 +63,7 @@ typedef struct {
     int count;
     double q[SA_MAP_CURVES_MAX + 2], slope[SA_MAP_CURVES_MAX + 2]; /* slope = dq/dalpha */
     double length[SA_MAP_CURVES_MAX + 2], length_slope[SA_MAP_CURVES_MAX + 2];
+    double gap[SA_MAP_CURVES_MAX + 2], gap_slope[SA_MAP_CURVES_MAX + 2];
 } sa_map_node;
 
 /* side 0: towards alpha_low, 1: towards alpha_high. CV_FAILED when a wave cannot be computed. */

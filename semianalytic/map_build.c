@@ -71,7 +71,8 @@ static cv_status collect_cuts(sa_map_cuts *cuts, sa_map *map)
     for (size_t i = 0; i < curves->special_count; ++i)
         if (sa_map_cuts_add(cuts, curves->special[i].alpha, 1) != CV_OK)
             return CV_FAILED;
-    if (sa_map_ghosts(map, cuts) != CV_OK || cut_infinite_arcs(cuts, map) != CV_OK)
+    if (sa_map_ghosts(map, cuts) != CV_OK || cut_infinite_arcs(cuts, map) != CV_OK ||
+        sa_map_dips(map, cuts) != CV_OK)
         return CV_FAILED;
     sa_map_cuts_sort(cuts);
     return CV_OK;

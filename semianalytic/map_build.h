@@ -24,9 +24,16 @@ cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts);
 /* Signed q of a ghost at alpha. */
 double sa_map_ghost_q(const sa_ghost *ghost, double alpha);
 
-/* Rate at which the wave of a curve decays at given damping, to first order:
- * (eta_p (W-V)^2 + eta_b (V-U)^2 + eta_f U^2) / (W^2 + mu_s V^2 + mu_b U^2). */
-double sa_map_damping(const sa_map *map, const sa_wave *wave);
+/* Rate at which a wave decays at the damping of the map, to first order: (eta_p (W-V)^2 + eta_b (V-U)^2 +
+ * eta_f U^2) / (W^2 + mu_s V^2 + mu_b U^2); slope (may be NULL): its derivative in p. */
+double sa_map_damping(double *slope, const sa_map *map, const sa_wave *wave);
+
+/* Grading length for a damping at a place of this size: a tenth of it, but not below what doubles resolve. */
+double sa_map_grading(double damping, double size);
+
+/* Adds the velocities at which the damping along an arc dips far below its surroundings: with some of the
+ * three dampings zero or much smaller, there are waves that stretch none of the other elements. */
+cv_status sa_map_dips(const sa_map *map, sa_map_cuts *cuts);
 
 /* 1 when the singularity of zeta at the branch point of this wave is too weak to matter even at its sharpest
  * (distance = damping): its height W^2 / (2 omega sqrt(2 omega'' damping)) for a mode of unit kinetic norm,

@@ -12,8 +12,9 @@ double sa_map_ghost_q(const sa_ghost *ghost, double alpha)
 
 /* q(p) = q_c - x d + omega''' x^3 / 6 with x = p - p_c, d = alpha - alpha_c: the points with dq/dp = 0 are
  * real on one side of the cusp, and imaginary with (2/3) sqrt(2 / |omega'''|) |d|^(3/2) on the other. */
-static cv_status make_ghost(sa_ghost *ghost, const sa_branch_curves *curves, size_t arc, int at_high)
+static cv_status make_ghost(sa_ghost *ghost, const sa_map *map, size_t arc, int at_high)
 {
+    const sa_branch_curves *curves = &map->curves;
     const sa_branch_arc *a = &curves->arc[arc];
     sa_wave wave;
     double alpha = (double)(at_high ? a->alpha_high : a->alpha_low);
@@ -23,6 +24,7 @@ static cv_status make_ghost(sa_ghost *ghost, const sa_branch_curves *curves, siz
     ghost->alpha = alpha;
     ghost->q = (double)(wave.omega - (long double)a->direction * alpha * wave.p);
     ghost->slope = (double)(-a->direction * wave.p);
+    ghost->damping = sa_map_damping(NULL, map, &wave);
     ghost->width = 2.0 / 3 * sqrt(2 / fabs((double)wave.d[3]));
     ghost->end = at_high ? fmin(alpha + reach, curves->alpha_max) : fmax(alpha - reach, curves->alpha_min);
     return CV_OK;
@@ -93,7 +95,7 @@ cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts)
         if (!ends_in_cusp(curves, i / 2, i % 2 == 1))
             continue;
         sa_ghost *ghost = &map->ghost[map->ghost_count++];
-        if (make_ghost(ghost, curves, i / 2, i % 2 == 1) != CV_OK ||
+        if (make_ghost(ghost, map, i / 2, i % 2 == 1) != CV_OK ||
             sa_map_cuts_add(cuts, ghost->end, 0) != CV_OK)
             return CV_FAILED;
         for (int arc = -1; arc < (int)curves->arc_count; ++arc)

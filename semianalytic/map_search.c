@@ -7,6 +7,7 @@ typedef struct {
     sa_field *field;
     const sa_search *search;
     double extent_u, extent_t; /* of the block, natural logarithms */
+    unsigned long cells;
 } search_state;
 
 typedef struct {
@@ -186,10 +187,12 @@ static cv_status give_up(const search_state *st, const cell_data *d)
     return st->search->unresolved(st->search->context, &d->s[4], range);
 }
 
-static cv_status search_cell(const search_state *st, cell c)
+static cv_status search_cell(search_state *st, cell c)
 {
     const double smallest = 1e-9;
     cell_data d;
+    if (++st->cells > SA_MAP_CELLS_MAX)
+        return CV_UNDECIDED;
     cv_status status = sample_cell(&d, st->field, &c);
     if (status != CV_OK || dismissed(&d, &c, st) || (excess(st, &c) <= 1 && simple(&status, st, &d)))
         return status;

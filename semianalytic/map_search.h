@@ -25,8 +25,10 @@ typedef struct {
 
 /* Subdivides every block until the lines in each cell are simple. What is left out is certain as far as Im
  * zeta and Re zeta are smooth in the coordinates of map.h on the scale of the first cells; the count of
- * unstable roots between the transitions (transitions.h) is the check. Ends with the first status of a
- * callback that is not CV_OK. */
+ * unstable roots between the transitions (transitions.h) is the check. CV_UNDECIDED: more than
+ * SA_MAP_CELLS_MAX cells, or a point where no precision gives zeta. Ends with the first status of a callback
+ * that is not CV_OK. */
+enum { SA_MAP_CELLS_MAX = 1000000 };
 cv_status sa_map_search(const sa_map *map, sa_field *field, const sa_search *search);
 
 /* The point of a segment at fraction x of its axis. */

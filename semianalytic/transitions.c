@@ -123,7 +123,6 @@ static cv_status finish_list(sa_transitions *list, search_pass *p, size_t i, con
 {
     sa_boundary *b = p->boundary;
     sa_crossings start;
-    sa_transitions_clear(list);
     cv_status status =
         sa_crossings_find(&start, &b->map, p->field, b->map.curves.alpha_min, p->level[i] / 2, NULL);
     if (status == CV_OK)
@@ -157,8 +156,15 @@ static cv_status run_pass(sa_transitions *lists, search_pass *p, const cv_number
     cv_status status = CV_FAILED;
     if (p->levels.doubtful != NULL && p->levels.doubtful_at != NULL && p->field != NULL)
         status = trace(p, refinement);
-    for (size_t i = 0; i < p->count && status == CV_OK; ++i)
-        status = finish_list(&lists[p->index[i]], p, i, &mass_ratios[p->index[i]], digits);
+    for (size_t i = 0; i < p->count && (status == CV_OK || status == CV_UNDECIDED); ++i) {
+        sa_transitions *list = &lists[p->index[i]];
+        sa_transitions_clear(list);
+        if (status == CV_UNDECIDED)
+            sa_transitions_doubt(list, "the search for lines Im zeta = 0 came to no end");
+        else
+            status = finish_list(list, p, i, &mass_ratios[p->index[i]], digits);
+    }
+    status = status == CV_UNDECIDED ? CV_OK : status;
     if (p->field != NULL)
         add_counts(&p->boundary->counts, sa_field_counts(p->field));
     sa_field_free(p->field);

@@ -2,36 +2,49 @@
 
 #include "semianalytic/transitions_parts.h"
 
-/* Newton's iteration at one precision, x = (alpha, q), f = (Re zeta - 1 / eta_M, Im zeta). The Jacobian stays
- * that of the candidate: it is right to 1e-6 or better, which each step gains in digits. */
+/* Newton's iteration at one precision, x = (alpha, q), f = (Re zeta - 1 / eta_M, Im zeta). The Jacobian is
+ * that of the candidate, mostly right to 1e-6 or better, which each step gains in digits; where it is not,
+ * approach() finds a better one. */
 typedef struct {
-    mpfr_t x[2], f[2], f_error[2], step[2], bound[2], level, scratch;
+    mpfr_t x[2], f[2], f_error[2], step[2], bound[2], base[2], full[2], level, scratch;
     mpc_t zeta;
     double inverse[2][2];
 } newton;
 
-static void newton_init(newton *n, const sa_candidate *from, const cv_number *mass_ratio, mpfr_prec_t bits)
+static void invert(newton *n, const double j[2][2])
 {
-    const double(*j)[2] = from->jacobian;
     double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
     n->inverse[0][0] = j[1][1] / det;
     n->inverse[0][1] = -j[0][1] / det;
     n->inverse[1][0] = -j[1][0] / det;
     n->inverse[1][1] = j[0][0] / det;
-    for (int i = 0; i < 2; ++i)
-        mpfr_inits2(bits, n->x[i], n->f[i], n->f_error[i], n->step[i], n->bound[i], (mpfr_ptr)0);
-    mpfr_inits2(bits, n->level, n->scratch, (mpfr_ptr)0);
-    mpc_init2(n->zeta, bits);
+}
+
+/* Back to the candidate */
+static void start(newton *n, const sa_candidate *from)
+{
+    invert(n, from->jacobian);
     mpfr_set_d(n->x[0], from->alpha, MPFR_RNDN);
     mpfr_set_d(n->x[1], from->q, MPFR_RNDN);
+}
+
+static void newton_init(newton *n, const sa_candidate *from, const cv_number *mass_ratio, mpfr_prec_t bits)
+{
+    for (int i = 0; i < 2; ++i)
+        mpfr_inits2(bits, n->x[i], n->f[i], n->f_error[i], n->step[i], n->bound[i], n->base[i], n->full[i],
+                    (mpfr_ptr)0);
+    mpfr_inits2(bits, n->level, n->scratch, (mpfr_ptr)0);
+    mpc_init2(n->zeta, bits);
     cv_number_get_mpfr(n->level, mass_ratio);
     mpfr_ui_div(n->level, 1, n->level, MPFR_RNDN);
+    start(n, from);
 }
 
 static void newton_clear(newton *n)
 {
     for (int i = 0; i < 2; ++i)
-        mpfr_clears(n->x[i], n->f[i], n->f_error[i], n->step[i], n->bound[i], (mpfr_ptr)0);
+        mpfr_clears(n->x[i], n->f[i], n->f_error[i], n->step[i], n->bound[i], n->base[i], n->full[i],
+                    (mpfr_ptr)0);
     mpfr_clears(n->level, n->scratch, (mpfr_ptr)0);
     mpc_clear(n->zeta);
 }
@@ -81,29 +94,110 @@ static int precise(newton *n, int digits)
     return 1;
 }
 
-/* CV_UNDECIDED: no convergence at this precision. */
+/* The larger of |step / x|: what damped steps are measured by. */
+static double relative_step(newton *n)
+{
+    double size = 0;
+    for (int i = 0; i < 2; ++i) {
+        mpfr_div(n->scratch, n->step[i], n->x[i], MPFR_RNDN);
+        size = fmax(size, fabs(mpfr_get_d(n->scratch, MPFR_RNDN)));
+    }
+    return size;
+}
+
+/* The Jacobian by differences at x, where zeta is known. Half of the working precision is left to it. */
+static cv_status differentiate(newton *n, sa_sweep *sweep, const sa_track *track)
+{
+    double j[2][2];
+    cv_status status = CV_OK;
+    mpc_t there;
+    mpc_init2(there, mpfr_get_prec(n->level));
+    for (int i = 0; i < 2 && status == CV_OK; ++i) {
+        mpfr_set(n->base[i], n->x[i], MPFR_RNDN);
+        mpfr_div_2si(n->full[i], n->x[i], mpfr_get_prec(n->level) / 2, MPFR_RNDN);
+        mpfr_add(n->x[i], n->x[i], n->full[i], MPFR_RNDN);
+        mpfr_sub(n->full[i], n->x[i], n->base[i], MPFR_RNDN);
+        status = sa_zeta_mp(there, n->bound[0], n->bound[1], sweep, track, n->x[0], n->x[1]);
+        mpfr_set(n->x[i], n->base[i], MPFR_RNDN);
+        mpc_sub(there, there, n->zeta, MPC_RNDNN);
+        mpc_div_fr(there, there, n->full[i], MPC_RNDNN);
+        j[0][i] = mpfr_get_d(mpc_realref(there), MPFR_RNDN);
+        j[1][i] = mpfr_get_d(mpc_imagref(there), MPFR_RNDN);
+    }
+    mpc_clear(there);
+    if (status == CV_OK)
+        invert(n, (const double(*)[2])j);
+    return status;
+}
+
+/* x = base - part * full; size is that of the next step by the same Jacobian. */
+static cv_status try_part(double *size, newton *n, sa_sweep *sweep, const sa_track *track, double part)
+{
+    for (int i = 0; i < 2; ++i) {
+        mpfr_mul_d(n->scratch, n->full[i], part, MPFR_RNDN);
+        mpfr_sub(n->x[i], n->base[i], n->scratch, MPFR_RNDN);
+        if (mpfr_sgn(n->x[i]) <= 0)
+            return CV_UNDECIDED;
+    }
+    cv_status status = newton_evaluate(n, sweep, track);
+    *size = status == CV_OK ? relative_step(n) : INFINITY;
+    return status == CV_FAILED ? status : CV_OK;
+}
+
+/* One Newton step with a new Jacobian, halved until the next step by the same Jacobian is smaller (the
+ * natural test of monotony). *gain: how much smaller. CV_UNDECIDED: never. */
+static cv_status damped_step(double *gain, newton *n, sa_sweep *sweep, const sa_track *track)
+{
+    const double shortest = 1e-4;
+    double size = INFINITY;
+    cv_status status = differentiate(n, sweep, track);
+    if (status != CV_OK)
+        return status;
+    newton_step(n);
+    const double whole = relative_step(n);
+    for (int i = 0; i < 2; ++i)
+        mpfr_set(n->full[i], n->step[i], MPFR_RNDN);
+    for (double part = 1; status != CV_FAILED && part > shortest; part /= 2) {
+        status = try_part(&size, n, sweep, track, part);
+        if (status == CV_OK && size < (1 - part / 4) * whole) {
+            *gain = part < 1 ? 1 : size / whole;
+            return CV_OK;
+        }
+    }
+    return status == CV_FAILED ? status : CV_UNDECIDED;
+}
+
+/* For candidates so close to a branch curve that double resolves neither the point nor the way zeta turns
+ * there: damped steps until a whole one gains two digits, so that iterate() can go on with its Jacobian. */
+static cv_status approach(newton *n, sa_sweep *sweep, const sa_track *track)
+{
+    enum { STEPS = 60 };
+    double gain = 1;
+    cv_status status = newton_evaluate(n, sweep, track);
+    for (int k = 0; k < STEPS && status == CV_OK && gain > 0.01; ++k)
+        status = damped_step(&gain, n, sweep, track);
+    return status == CV_OK && gain > 0.01 ? CV_UNDECIDED : status;
+}
+
+/* CV_UNDECIDED: no convergence at this precision. The Jacobian is believed after a step that shrank. */
 static cv_status iterate(newton *n, sa_sweep *sweep, const sa_track *track, int digits)
 {
     const double slowest = 0.1;
-    mpfr_t last, size;
-    cv_status status = CV_OK;
-    int converging = 1, done = 0;
-    mpfr_inits2(53, last, size, (mpfr_ptr)0);
-    mpfr_set_inf(last, 1);
-    while (status == CV_OK && converging && !done) {
+    double last = INFINITY;
+    cv_status status;
+    for (int done = 0; !done;) {
         status = newton_evaluate(n, sweep, track);
         if (status != CV_OK)
-            break;
-        done = precise(n, digits);
-        mpfr_hypot(size, n->step[0], n->step[1], MPFR_RNDU);
-        mpfr_mul_d(last, last, slowest, MPFR_RNDD);
-        converging = mpfr_cmp(size, last) < 0;
-        mpfr_set(last, size, MPFR_RNDU);
-        for (int i = 0; i < 2 && !done && converging; ++i)
+            return status;
+        const double size = relative_step(n);
+        if (!(size <= slowest * last))
+            return CV_UNDECIDED;
+        done = isfinite(last) && precise(n, digits);
+        last = size;
+        for (int i = 0; i < 2 && !done; ++i)
             mpfr_sub(n->x[i], n->x[i], n->step[i], MPFR_RNDN);
     }
-    mpfr_clears(last, size, (mpfr_ptr)0);
-    return status == CV_OK && !done ? CV_UNDECIDED : status;
+    return status;
 }
 
 static void report(sa_transition *item, const newton *n, cv_status decided)
@@ -129,6 +223,12 @@ cv_status sa_transition_refine(sa_transition *item, sa_sweep *sweep, const sa_tr
         newton n;
         newton_init(&n, from, mass_ratio, bits);
         status = iterate(&n, sweep, track, digits);
+        if (status == CV_UNDECIDED) {
+            start(&n, from);
+            status = approach(&n, sweep, track);
+            if (status == CV_OK)
+                status = iterate(&n, sweep, track, digits);
+        }
         report(item, &n, status);
         newton_clear(&n);
     }
