@@ -5,10 +5,13 @@
 #include <stdio.h>
 
 #include "common/selection.h"
+#include "dgreen/grid.h"
 
 /* What was typed: the target of main.c's option table. */
 typedef struct {
     cv_selection selection;
+    dg_grid alphas, masses;   /* --alpha and --mass-ratio for map; one number goes to the selection as well */
+    cv_optional_number delta; /* of curve */
 } dg_options;
 
 /* As cv_work: reads FILE at path, writes the answer to out; warnings to log. */
@@ -19,5 +22,7 @@ dg_command dg_command_z;           /* zeta (and z) at one point */
 dg_command dg_command_count;       /* unstable roots at one velocity */
 dg_command dg_command_transitions; /* all transitions over the velocity range */
 dg_command dg_command_roots;       /* mass-induced frequencies at one velocity */
+dg_command dg_command_curve;       /* curves of figures 2 and 3 at one velocity */
+dg_command dg_command_map;         /* stability over mass ratio and velocity */
 
 #endif

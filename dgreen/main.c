@@ -28,28 +28,55 @@ static const char help[] =
     "\n"
     "  --case NAME        what follows \"case\" or \"track\" in the section name; default: the first\n"
     "  --damping X        sets all three damping ratios; default: the first level of FILE\n"
-    "  --alpha X          velocity ratio, 0 or more\n"
+    "  --alpha X          velocity ratio, 0 or more; map: first:last:count\n"
     "  --frequency X      dimensionless frequency q\n"
-    "  --mass-ratio X     mass ratio eta_M\n"
+    "  --mass-ratio X     mass ratio eta_M; map: first:last:count\n"
+    "  --delta X          Re qbar of the second curve of curve; default: 0.01\n"
     "  --digits N         significant digits of each part; default: as in FILE\n"
-    "  --format FORMAT    text (default) or json\n"
+    "  --format FORMAT    text (default; csv means the same) or json\n"
     "  --help, --version\n"
     "\n"
     "Exit status: 0 done, 1 undecided, 2 wrong usage or input, 3 internal or I/O failure.\n";
 
+/* One number or a grid; a grid alone is for map. */
+static cv_status set_axis(dg_grid *grid, cv_optional_number *single, const char *text, cv_message *why)
+{
+    const cv_status status = dg_grid_parse(grid, text, why);
+    return status == CV_OK && grid->count == 1 ? cv_set_number(single, text, why) : status;
+}
+
+static cv_status set_alpha(void *to, const char *text, cv_message *why)
+{
+    dg_options *o = to;
+    return set_axis(&o->alphas, &o->selection.alpha, text, why);
+}
+
+static cv_status set_mass_ratio(void *to, const char *text, cv_message *why)
+{
+    dg_options *o = to;
+    return set_axis(&o->masses, &o->selection.mass_ratio, text, why);
+}
+
+/* The text of curve and map is CSV and may be asked for by that name. */
+static cv_status set_format(void *to, const char *text, cv_message *why)
+{
+    return cv_set_format(to, strcmp(text, "csv") == 0 ? "text" : text, why);
+}
+
 static const cv_option options[] = {CV_OPTION_CASE(offsetof(dg_options, selection)),
                                     CV_OPTION_DAMPING(offsetof(dg_options, selection)),
-                                    CV_OPTION_ALPHA(offsetof(dg_options, selection)),
+                                    {"alpha", set_alpha, 0, 0},
                                     CV_OPTION_FREQUENCY(offsetof(dg_options, selection)),
-                                    CV_OPTION_MASS_RATIO(offsetof(dg_options, selection)),
+                                    {"mass-ratio", set_mass_ratio, 0, 0},
                                     CV_OPTION_DIGITS(offsetof(dg_options, selection)),
-                                    CV_OPTION_FORMAT(offsetof(dg_options, selection)),
+                                    {"delta", cv_set_number, offsetof(dg_options, delta), 0},
+                                    {"format", set_format, offsetof(dg_options, selection.format), 0},
                                     {NULL, NULL, 0, 0}};
 
 /* One row per subcommand; names[i] belongs to commands[i]. */
-static const char *const names[] = {"z", "count", "transitions", "roots", NULL};
-static dg_command *const commands[] = {dg_command_z, dg_command_count, dg_command_transitions,
-                                       dg_command_roots};
+static const char *const names[] = {"z", "count", "transitions", "roots", "curve", "map", NULL};
+static dg_command *const commands[] = {dg_command_z,     dg_command_count, dg_command_transitions,
+                                       dg_command_roots, dg_command_curve, dg_command_map};
 
 static cv_status work(const void *typed, const cv_arguments *arguments, FILE *out, FILE *log, cv_message *why)
 {
@@ -64,7 +91,13 @@ int main(int argc, char **argv)
     const cv_program program = {"critvel-dgreen", help, names, options, work};
     dg_options typed = {0};
     cv_selection_init(&typed.selection);
+    cv_number_init(&typed.delta.value);
+    dg_grid_init(&typed.alphas);
+    dg_grid_init(&typed.masses);
     const int status = cv_main(&program, &typed, argc, argv);
     cv_selection_clear(&typed.selection);
+    cv_number_clear(&typed.delta.value);
+    dg_grid_clear(&typed.alphas);
+    dg_grid_clear(&typed.masses);
     return status;
 }
