@@ -1,30 +1,22 @@
 /* dgreen/ as compare sees it. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "compare/method.h"
+#include "dgreen/count.h"
 #include "dgreen/transitions.h"
-#include "dgreen/winding.h"
 #include "dgreen/z_mp.h"
-
-/* Curves are needed for Re zeta around 1/eta_M only: from this part of it on. */
-static const double FLOOR = 0.3;
 
 typedef struct {
     cv_params params;
     cv_number alpha_min, alpha_max;
     dg_track *track;
-    dg_follow *follow;
-    dg_branch_curves *curves; /* made when the first count asks for them */
-    dg_curve curve;           /* its memory is used again by the next count */
+    dg_counter *counter; /* made when the first count asks for it */
 } handle;
 
 static void close_handle(void *opaque)
 {
     handle *h = opaque;
-    dg_curve_clear(&h->curve);
-    dg_branch_curves_free(h->curves);
-    dg_follow_free(h->follow);
+    dg_counter_free(h->counter);
     dg_track_free(h->track);
     cv_number_clear(&h->alpha_min);
     cv_number_clear(&h->alpha_max);
@@ -45,8 +37,6 @@ static cv_status open_handle(void **out, const cv_params *params, const cv_numbe
     cv_number_init(&h->alpha_max);
     cv_number_set(&h->alpha_max, alpha_max);
     cv_status status = dg_track_new(&h->track, params, why);
-    if (status == CV_OK)
-        status = dg_follow_new(&h->follow, why);
     if (status == CV_OK)
         *out = h;
     else
@@ -95,24 +85,18 @@ static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t 
     return status;
 }
 
-/* The curve of zeta(i q) at one velocity serves all mass ratios. */
 static cv_status count(void *opaque, int *roots, double alpha, size_t mass_count,
                        const cv_number *mass_ratios, cv_message *why)
 {
     handle *h = opaque;
-    double smallest = HUGE_VAL;
+    size_t failed;
     cv_status status = CV_OK;
-    for (size_t i = 0; i < mass_count; i++)
-        smallest = fmin(smallest, 1.0 / cv_number_get_double(&mass_ratios[i]));
-    if (h->curves == NULL)
-        status = dg_branch_curves_new(&h->curves, h->track, cv_number_get_double(&h->alpha_min),
-                                      cv_number_get_double(&h->alpha_max), why);
-    const dg_probe probe = {h->track, h->follow, h->curves};
-    if (status == CV_OK)
-        status = dg_curve_at(&h->curve, &probe, alpha, FLOOR * smallest, why);
-    for (size_t i = 0; status == CV_OK && i < mass_count; i++)
-        status = dg_winding(&roots[i], &h->curve, 1.0 / cv_number_get_double(&mass_ratios[i]), why);
-    return status;
+    if (h->counter == NULL)
+        status = dg_counter_new(&h->counter, &h->params, cv_number_get_double(&h->alpha_min),
+                                cv_number_get_double(&h->alpha_max), why);
+    return status == CV_OK
+               ? dg_count_unstable(roots, &failed, h->counter, alpha, mass_count, mass_ratios, why)
+               : status;
 }
 
 static cv_status zeta(void *opaque, mpc_ptr out, mpfr_ptr re_error, mpfr_ptr im_error, mpfr_srcptr alpha,
