@@ -137,7 +137,7 @@ static cv_status gap_crossing(const scan *below, const scan *above)
     double sign = fabs(a.re) > fabs(b.re) ? a.re : b.re;
     return append(below->out, (sa_crossing){.q = b.q,
                                             .re = copysign(size, sign),
-                                            .re_error = size > large ? size / 4 : INFINITY,
+                                            .re_error = size > large ? size / 4 : (double)INFINITY,
                                             .direction = a.im > 0 ? 1 : -1});
 }
 
