@@ -9,7 +9,7 @@ enum { ROUNDS = 40, MAX_VERTICES = 20000 };
  * they turn by at most TURN + 2 HIDDEN < 15 degrees. */
 static const double TURN = 0.12, HIDDEN = 0.07;
 /* Steps smaller than this part of |z| are not refined, nor intervals smaller than this part of q. */
-static const double SMALL = 1e-4, NARROW = 1e-13;
+static const double SMALL = 1e-6, NARROW = 1e-13;
 
 cv_status dg_polyline_push(dg_polyline *line, const dg_vertex *v, cv_message *why)
 {
@@ -79,22 +79,38 @@ static int crosses(const dg_vertex *a, const dg_vertex *b)
     return (a->im > 0) != (b->im > 0);
 }
 
-/* Leaves out vertices while the turns that vanish so add up to little. */
-static void thin(dg_polyline *line)
+/* The turn at vertex i; none at the ends */
+static double turn_at(const dg_polyline *line, size_t i)
 {
-    size_t kept = 1;
+    return i > 0 && i + 1 < line->count ? turn(&line->at[i - 1], &line->at[i], &line->at[i + 1]) : 0;
+}
+
+/* A vertex where the line turns much, being too small to be refined there; its small steps stay small. */
+static int beside_corner(const dg_polyline *line, size_t i)
+{
+    return turn_at(line, i - 1) > TURN || turn_at(line, i + 1) > TURN;
+}
+
+/* Leaves out vertices while the turns that vanish so add up to little. */
+static cv_status thin(dg_polyline *line, cv_message *why)
+{
+    dg_polyline thinner = {0};
     double hidden = 0;
-    for (size_t i = 1; i < line->count; i++) {
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < line->count && status == CV_OK; i++) {
         const dg_vertex *v = &line->at[i];
-        const double more = i + 1 < line->count ? turn(v - 1, v, v + 1) : HUGE_VAL;
-        if (hidden + more <= HIDDEN && !crosses(v - 1, v) && !crosses(v, v + 1)) {
-            hidden += more;
+        const int inside = i > 0 && i + 1 < line->count;
+        if (inside && hidden + turn_at(line, i) <= HIDDEN && !crosses(v - 1, v) && !crosses(v, v + 1) &&
+            !beside_corner(line, i)) {
+            hidden += turn_at(line, i);
             continue;
         }
         hidden = 0;
-        line->at[kept++] = *v;
+        status = dg_polyline_push(&thinner, v, why);
     }
-    line->count = kept;
+    dg_polyline_clear(line);
+    *line = thinner;
+    return status;
 }
 
 cv_status dg_polyline_shape(dg_polyline *line, const dg_station *station, dg_vertex_rule *rule, void *context,
@@ -108,7 +124,5 @@ cv_status dg_polyline_shape(dg_polyline *line, const dg_station *station, dg_ver
         if (line->count == before)
             break;
     }
-    if (line->count > 2)
-        thin(line);
-    return CV_OK;
+    return thin(line, why);
 }
