@@ -1,8 +1,8 @@
 /* critvel-dgreen count: number of unstable roots at one velocity. */
-#include <jansson.h>
 #include <stdlib.h>
 
 #include "dgreen/command.h"
+#include "dgreen/command_json.h"
 #include "dgreen/count.h"
 
 /* The mass ratios: the one that was typed, or those of the case. */
@@ -25,14 +25,6 @@ static cv_status write_text(const int *roots, const cv_number *masses, size_t co
     return CV_OK;
 }
 
-static json_t *number(const cv_number *x)
-{
-    char *text = cv_number_text(x, 17);
-    json_t *value = json_string(text);
-    free(text);
-    return value;
-}
-
 static cv_status write_json(const int *roots, const cv_number *masses, size_t count, const cv_choice *choice,
                             const cv_number *alpha, FILE *out, cv_message *why)
 {
@@ -40,11 +32,9 @@ static cv_status write_json(const int *roots, const cv_number *masses, size_t co
     json_t *list = json_array();
     for (size_t i = 0; i < count; i++)
         json_array_append_new(
-            list, json_pack("{s:o, s:i}", "eta_M", number(&masses[i]), "unstable_roots", roots[i]));
-    json_t *damping = json_pack("{s:o, s:o, s:o}", "eta_p", number(&p->eta_p), "eta_b", number(&p->eta_b),
-                                "eta_f", number(&p->eta_f));
-    json_t *root = json_pack("{s:s, s:o, s:o, s:o}", "case", choice->chosen->name, "damping", damping,
-                             "alpha", number(alpha), "mass_ratios", list);
+            list, json_pack("{s:o, s:i}", "eta_M", dg_json_number(&masses[i]), "unstable_roots", roots[i]));
+    json_t *root = json_pack("{s:s, s:o, s:o, s:o}", "case", choice->chosen->name, "damping",
+                             dg_json_damping(p), "alpha", dg_json_number(alpha), "mass_ratios", list);
     const int failed = root == NULL || json_array_size(list) != count ||
                        json_dumpf(root, out, JSON_INDENT(2)) != 0 || fputc('\n', out) == EOF;
     json_decref(root);

@@ -1,10 +1,10 @@
 /* critvel-dgreen curve: the D-decomposition curves of figures 2 and 3. Text is CSV. */
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "dgreen/command.h"
+#include "dgreen/command_json.h"
 #include "dgreen/stability_curve.h"
 
 /* Re qbar of the second curve, unless it is typed. */
@@ -76,14 +76,6 @@ static cv_status write_csv(const answer *a, FILE *out)
                : CV_OK;
 }
 
-static json_t *number(const cv_number *x)
-{
-    char *text = cv_number_text(x, 17);
-    json_t *value = json_string(text);
-    free(text);
-    return value;
-}
-
 /* JSON has no infinity: null */
 static json_t *real_or_null(double x)
 {
@@ -142,14 +134,12 @@ static cv_status write_json(const answer *a, FILE *out)
 {
     const cv_params *p = &a->choice->params;
     const cv_selection *s = a->selection;
-    json_t *damping = json_pack("{s:o, s:o, s:o}", "eta_p", number(&p->eta_p), "eta_b", number(&p->eta_b),
-                                "eta_f", number(&p->eta_f));
-    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:f, s:o, s:o, s:o, s:o, s:o}", "case",
-                             a->choice->chosen->name, "damping", damping, "alpha", number(&s->alpha.value),
-                             "eta_M", s->mass_ratio.given ? number(&s->mass_ratio.value) : json_null(),
-                             "delta", a->delta, "point", verdict_json(a), "crossings", cuts_json(&a->curve),
-                             "regions", regions_json(&a->curve), "boundary", line_json(&a->curve.boundary),
-                             "shifted", line_json(&a->curve.shifted));
+    json_t *root = json_pack(
+        "{s:s, s:o, s:o, s:o, s:f, s:o, s:o, s:o, s:o, s:o}", "case", a->choice->chosen->name, "damping",
+        dg_json_damping(p), "alpha", dg_json_number(&s->alpha.value), "eta_M",
+        s->mass_ratio.given ? dg_json_number(&s->mass_ratio.value) : json_null(), "delta", a->delta, "point",
+        verdict_json(a), "crossings", cuts_json(&a->curve), "regions", regions_json(&a->curve), "boundary",
+        line_json(&a->curve.boundary), "shifted", line_json(&a->curve.shifted));
     const int failed = root == NULL || json_dumpf(root, out, JSON_INDENT(1)) != 0 || fputc('\n', out) == EOF;
     json_decref(root);
     return failed ? CV_FAILED : CV_OK;

@@ -1,9 +1,9 @@
 /* critvel-dgreen map: number of unstable roots and growth rate over mass ratio and velocity. Text is CSV. */
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "dgreen/command.h"
+#include "dgreen/command_json.h"
 #include "dgreen/map.h"
 
 typedef struct {
@@ -91,14 +91,6 @@ static cv_status write_csv(const answer *a, FILE *out)
     return CV_OK;
 }
 
-static json_t *number(const cv_number *x)
-{
-    char *text = cv_number_text(x, 17);
-    json_t *value = json_string(text);
-    free(text);
-    return value;
-}
-
 static json_t *reals(const double *x, size_t n)
 {
     json_t *list = json_array();
@@ -130,12 +122,10 @@ static cv_status write_json(const answer *a, FILE *out)
         for (size_t i = 0; i < a->rows; i++)
             json_array_append_new(tables[which], row_json(a, i, which));
     }
-    json_t *damping = json_pack("{s:o, s:o, s:o}", "eta_p", number(&p->eta_p), "eta_b", number(&p->eta_b),
-                                "eta_f", number(&p->eta_f));
-    json_t *root =
-        json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "case", a->choice->chosen->name, "damping", damping,
-                  "alpha", reals(a->alphas, a->rows), "eta_M", reals(a->masses, a->columns), "unstable_roots",
-                  tables[0], "growth_rate", tables[1], "frequency", tables[2]);
+    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "case", a->choice->chosen->name,
+                             "damping", dg_json_damping(p), "alpha", reals(a->alphas, a->rows), "eta_M",
+                             reals(a->masses, a->columns), "unstable_roots", tables[0], "growth_rate",
+                             tables[1], "frequency", tables[2]);
     const int failed = root == NULL || json_dumpf(root, out, JSON_INDENT(1)) != 0 || fputc('\n', out) == EOF;
     json_decref(root);
     return failed ? CV_FAILED : CV_OK;

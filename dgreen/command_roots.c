@@ -1,8 +1,8 @@
 /* critvel-dgreen roots: mass-induced frequencies and growth rates at one velocity. */
-#include <jansson.h>
 #include <stdlib.h>
 
 #include "dgreen/command.h"
+#include "dgreen/command_json.h"
 #include "dgreen/mass_roots.h"
 
 static char *decimal(mpfr_srcptr x, int digits)
@@ -36,14 +36,6 @@ static json_t *root_json(const dg_mass_root *r, int digits)
     return item;
 }
 
-static json_t *number(const cv_number *x)
-{
-    char *text = cv_number_text(x, 17);
-    json_t *value = json_string(text);
-    free(text);
-    return value;
-}
-
 static cv_status write_json(const dg_mass_roots *roots, const cv_choice *choice, const cv_selection *s,
                             FILE *out)
 {
@@ -51,12 +43,10 @@ static cv_status write_json(const dg_mass_roots *roots, const cv_choice *choice,
     json_t *list = json_array();
     for (size_t i = 0; i < roots->count; i++)
         json_array_append_new(list, root_json(&roots->items[i], choice->digits));
-    json_t *damping = json_pack("{s:o, s:o, s:o}", "eta_p", number(&p->eta_p), "eta_b", number(&p->eta_b),
-                                "eta_f", number(&p->eta_f));
-    json_t *root =
-        json_pack("{s:s, s:o, s:o, s:o, s:i, s:i, s:o}", "case", choice->chosen->name, "damping", damping,
-                  "alpha", number(&s->alpha.value), "eta_M", number(&s->mass_ratio.value), "digits",
-                  choice->digits, "unstable_roots", roots->unstable_count, "roots", list);
+    json_t *root = json_pack("{s:s, s:o, s:o, s:o, s:i, s:i, s:o}", "case", choice->chosen->name, "damping",
+                             dg_json_damping(p), "alpha", dg_json_number(&s->alpha.value), "eta_M",
+                             dg_json_number(&s->mass_ratio.value), "digits", choice->digits, "unstable_roots",
+                             roots->unstable_count, "roots", list);
     const int failed = root == NULL || json_array_size(list) != roots->count ||
                        json_dumpf(root, out, JSON_INDENT(2)) != 0 || fputc('\n', out) == EOF;
     json_decref(root);
