@@ -91,7 +91,7 @@ double complex dg_continued_zeta(const dg_continued *c)
 
 cv_status dg_continued_slope(double complex *slope, const dg_continued *c, double room)
 {
-    static const double PART = 1e-4;
+    static const double PART = 5e-3;
     dg_continued left = *c, right = *c;
     cv_status status = dg_continued_move(&left, c->qbar - PART * room);
     if (status == CV_OK)

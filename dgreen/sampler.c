@@ -51,16 +51,16 @@ dg_probe dg_sampler_probe(const dg_sampler *s)
     return (dg_probe){s->track, s->follow, s->branches};
 }
 
-/* zeta ~ C/sqrt(q - q_b): what passes the real axis next to q_b, as near as that is known in double, passes it
- * at infinity. */
+/* zeta ~ C/sqrt(q - q_b): what passes the real axis next to q_b, as near as that is known in double, passes
+ * it at infinity. */
 static void send_to_infinity(dg_curve *c)
 {
-    static const double ROUNDING = 1e-13;
+    static const double ROUNDING = 1e-13, RESIDUE = 1e-15; /* q_b = alpha p - omega may cancel */
     for (size_t i = 0; i < c->crossing_count; i++) {
         dg_crossing *x = &c->crossings[i];
         for (size_t k = 0; k < c->at.count; k++) {
             const dg_branch_point *point = &c->at.points[k];
-            const double near = ROUNDING * point->q;
+            const double near = ROUNDING * point->q + RESIDUE * c->at.alpha * fabs(point->p);
             if (!point->soft && point->q >= x->q_low - near && point->q <= x->q_high + near)
                 x->x = x->x_low = x->x_high = INFINITY;
         }
