@@ -11,6 +11,8 @@ enum { MAX_DEPTH = 70, MAX_ALIGNED = 64, NONE = -1 };
 static const double SKIP = 3, POSITION_WEIGHT = 0.2;
 /* A dip or an unpaired crossing matters for mass ratios with 1/eta_M within this factor */
 static const double REACH = 4;
+/* A dip may fall this many times as fast as its slope says */
+static const double DIP_SAFETY = 4;
 /* Part of the range of unpaired crossings by which 1/eta_M must keep away from it */
 static const double MARGIN = 0.5;
 
@@ -84,13 +86,13 @@ static int unpaired_matter(const dg_curve *c, const int *partner, double x)
     return n > 0 && x > least - margin && x < most + margin;
 }
 
-/* Whether a dip of one curve reaches zero within "distance" (signed) in alpha, by its slope, at an x that
- * matters. */
+/* Whether a dip of one curve could reach zero within "distance" in alpha, by its slope with room for curvature,
+ * at an x that matters. */
 static int dip_matters(const dg_sweep *s, const dg_curve *c, double distance)
 {
     for (size_t i = 0; i < c->dip_count; i++) {
         const dg_dip *d = &c->dips[i];
-        if (!((d->im + d->d_im * distance > 0) == (d->im > 0)))
+        if (!(fabs(d->im) > DIP_SAFETY * fabs(d->d_im * distance)))
             for (size_t k = 0; k < s->mass_count; k++)
                 if (d->re < REACH * s->masses[k].x && d->re > s->masses[k].x / REACH)
                     return 1;
@@ -109,8 +111,7 @@ static cv_status attempt(dg_sweep *s, const dg_curve *left, const dg_curve *righ
             unpaired_matter(right, g.left_of, s->masses[k].x))
             return CV_UNDECIDED;
     const double width = right->at.alpha - left->at.alpha;
-    if (left->crossing_count == right->crossing_count &&
-        (dip_matters(s, left, width) || dip_matters(s, right, -width)))
+    if (dip_matters(s, left, width) || dip_matters(s, right, width))
         return CV_UNDECIDED;
     cv_status status = CV_OK;
     for (size_t i = 0; i < left->crossing_count && status == CV_OK; i++)
