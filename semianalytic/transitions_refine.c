@@ -105,7 +105,19 @@ static double relative_step(newton *n)
     return size;
 }
 
-/* The Jacobian by differences at x, where zeta is known. Half of the working precision is left to it. */
+/* Whether a difference of zeta stands clear of the bounds of its two values. */
+static int clear_of_noise(newton *n, mpc_srcptr difference)
+{
+    mpc_abs(n->scratch, difference, MPFR_RNDD);
+    mpfr_div_2si(n->scratch, n->scratch, 20, MPFR_RNDD);
+    for (int i = 0; i < 2; ++i)
+        if (!(mpfr_cmp(n->f_error[i], n->scratch) < 0 && mpfr_cmp(n->bound[i], n->scratch) < 0))
+            return 0;
+    return 1;
+}
+
+/* The Jacobian by differences at x, where zeta is known. Half of the working precision is left to it.
+ * CV_UNDECIDED: the precision is not enough for that. */
 static cv_status differentiate(newton *n, sa_sweep *sweep, const sa_track *track)
 {
     double j[2][2];
@@ -120,6 +132,8 @@ static cv_status differentiate(newton *n, sa_sweep *sweep, const sa_track *track
         status = sa_zeta_mp(there, n->bound[0], n->bound[1], sweep, track, n->x[0], n->x[1]);
         mpfr_set(n->x[i], n->base[i], MPFR_RNDN);
         mpc_sub(there, there, n->zeta, MPC_RNDNN);
+        if (status == CV_OK && !clear_of_noise(n, there))
+            status = CV_UNDECIDED;
         mpc_div_fr(there, there, n->full[i], MPC_RNDNN);
         j[0][i] = mpfr_get_d(mpc_realref(there), MPFR_RNDN);
         j[1][i] = mpfr_get_d(mpc_imagref(there), MPFR_RNDN);
@@ -140,7 +154,9 @@ static cv_status try_part(double *size, newton *n, sa_sweep *sweep, const sa_tra
             return CV_UNDECIDED;
     }
     cv_status status = newton_evaluate(n, sweep, track);
-    *size = status == CV_OK ? relative_step(n) : INFINITY;
+    *size = INFINITY;
+    if (status == CV_OK)
+        *size = relative_step(n);
     return status == CV_FAILED ? status : CV_OK;
 }
 
@@ -165,6 +181,20 @@ static cv_status damped_step(double *gain, newton *n, sa_sweep *sweep, const sa_
         }
     }
     return status == CV_FAILED ? status : CV_UNDECIDED;
+}
+
+/* Whether x is the solution that the candidate stands for: near, and passed in the same direction (the counts
+ * of roots between transitions are the proof). Along a branch curve a candidate in double may be 1e-5 off. */
+static int same_solution(newton *n, const sa_candidate *from)
+{
+    const double reach = 1e-3, candidate[2] = {from->alpha, from->q};
+    const double(*j)[2] = from->jacobian, (*k)[2] = (const double(*)[2])n->inverse;
+    for (int i = 0; i < 2; ++i) {
+        mpfr_sub_d(n->scratch, n->x[i], candidate[i], MPFR_RNDN);
+        if (!(fabs(mpfr_get_d(n->scratch, MPFR_RNDN)) <= reach * candidate[i]))
+            return 0;
+    }
+    return (j[0][0] * j[1][1] - j[0][1] * j[1][0] > 0) == (k[0][0] * k[1][1] - k[0][1] * k[1][0] > 0);
 }
 
 /* For candidates so close to a branch curve that double resolves neither the point nor the way zeta turns
@@ -194,10 +224,21 @@ static cv_status iterate(newton *n, sa_sweep *sweep, const sa_track *track, int 
             return CV_UNDECIDED;
         done = isfinite(last) && precise(n, digits);
         last = size;
-        for (int i = 0; i < 2 && !done; ++i)
+        for (int i = 0; i < 2 && !done; ++i) {
             mpfr_sub(n->x[i], n->x[i], n->step[i], MPFR_RNDN);
+            if (mpfr_sgn(n->x[i]) <= 0)
+                return CV_UNDECIDED;
+        }
     }
     return status;
+}
+
+/* The candidate, of which no digit is claimed. */
+static void give_up(newton *n, const sa_candidate *from)
+{
+    start(n, from);
+    for (int i = 0; i < 2; ++i)
+        mpfr_abs(n->bound[i], n->x[i], MPFR_RNDU);
 }
 
 static void report(sa_transition *item, const newton *n, cv_status decided)
@@ -229,6 +270,10 @@ cv_status sa_transition_refine(sa_transition *item, sa_sweep *sweep, const sa_tr
             if (status == CV_OK)
                 status = iterate(&n, sweep, track, digits);
         }
+        if (status == CV_OK && !same_solution(&n, from))
+            status = CV_UNDECIDED;
+        if (status != CV_OK)
+            give_up(&n, from);
         report(item, &n, status);
         newton_clear(&n);
     }
