@@ -7,9 +7,9 @@ enum { ROUNDS = 40, MAX_VERTICES = 20000 };
 /* Largest turn between refined vertices, and largest sum of turns that leaving out may hide between two that
  * stay, in radians. Chords deviate from the first and last step they replace by at most that sum, so that
  * they turn by at most TURN + 2 HIDDEN < 15 degrees. */
-static const double TURN = 0.12, HIDDEN = 0.07;
+static const double TURN = 0.11, HIDDEN = 0.05;
 /* Steps smaller than this part of |z| are not refined, nor intervals smaller than this part of q. */
-static const double SMALL = 1e-6, NARROW = 1e-13;
+static const double SMALL = 1e-6, NARROW = 2e-15;
 
 cv_status dg_polyline_push(dg_polyline *line, const dg_vertex *v, cv_message *why)
 {

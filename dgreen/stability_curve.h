@@ -29,7 +29,8 @@ typedef struct {
 } dg_stability_curve;
 
 /* At alpha in the sampler's range, factor > 0, delta > 0. *c must be zero or a former curve. A polyline turns
- * by at most 15 degrees at each vertex, except where one of the two steps is below 1e-6 of |z|, at a branch
+ * by at most 15 degrees at each vertex, except where one of the two steps is below 1e-6 of |z| or
+ * as narrow in q as doubles are, at a branch
  * point without damping, and where it has too many vertices (MAX_VERTICES of stability_curve.c); each
  * crossing listed lies between two consecutive vertices. The number of roots in each region follows from the
  * crossings and is compared with the winding of the curve around a point of the region. CV_UNDECIDED as
