@@ -16,6 +16,7 @@ typedef struct {
 
 typedef struct {
     const sa_image *image;
+    sa_image at_load; /* the same with xi = 0: the measure of what matters */
     rule rule;
     double tolerance; /* of the integral over one panel */
     sa_panels *out;
@@ -95,6 +96,8 @@ static cv_status panels_between(build *b, double from, double to, int depth)
 {
     const double rounding = 1e-14;
     sa_panel p;
+    if (b->out->count >= SA_PANELS_MAX)
+        return CV_UNDECIDED;
     cv_status status = panel_set(&p, b, from, to);
     if (status != CV_OK)
         return status;
@@ -111,7 +114,8 @@ static cv_status panels_between(build *b, double from, double to, int depth)
 static cv_status all_panels(build *b)
 {
     enum { DEPTH_MAX = 30 };
-    const double largest = 1e7, growth = 0.35;
+    const double growth = 0.35, xi = b->image->xi;
+    const double largest = fmax(1e4, 1e7 / (1 + xi * xi)); /* e^{i p xi} oscillates as sqrt(2 x) xi */
     double from = 0;
     double complex w = 0;
     cv_status status = CV_OK;
@@ -120,7 +124,7 @@ static cv_status all_panels(build *b)
         status = panels_between(b, from, to, DEPTH_MAX);
         from = to;
         if (status == CV_OK)
-            status = image_at(&w, b->image, from);
+            status = image_at(&w, &b->at_load, from); /* beside it, W may be tiny before waves begin */
     } while (status == CV_OK && from < largest && !(cabs(w) * from < b->tolerance));
     b->out->end = from;
     b->out->tail = cabs(w);
@@ -130,12 +134,13 @@ static cv_status all_panels(build *b)
 cv_status sa_panels_build(sa_panels *out, const sa_image *image, cv_message *why)
 {
     const double share = 1e-14;
-    build b = {.image = image, .out = out};
+    build b = {.image = image, .at_load = *image, .out = out};
     double complex start = 0;
+    b.at_load.xi = 0;
     *out = (sa_panels){0};
     if (!rule_set(&b.rule))
         return cv_fail(why, CV_FAILED, "out of memory");
-    cv_status status = image_at(&start, image, 0);
+    cv_status status = image_at(&start, &b.at_load, 0);
     b.tolerance = share * cabs(start) * image->height;
     if (status == CV_OK)
         status = all_panels(&b);

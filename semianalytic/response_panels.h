@@ -12,7 +12,7 @@ typedef struct {
     double alpha, mass, xi, height;
 } sa_image;
 
-enum { SA_PANEL_NODES = 16 };
+enum { SA_PANEL_NODES = 16, SA_PANELS_MAX = 200000 };
 
 typedef struct {
     double middle, half;
@@ -23,13 +23,15 @@ typedef struct {
     size_t count, room;
     sa_panel *panel;
     double end;   /* of the last panel */
-    double tail;  /* |W| there */
+    double tail;  /* |W| there, at xi = 0 */
     double error; /* estimated error of the integral of |W - its Legendre sums|, and of rounding */
 } sa_panels;
 
-/* Panels from 0 to where the rest, |W| falling like x^(-5/2) or faster, no longer matters, at most 1e7. Each
- * is halved until its last coefficients are below 1e-14 of the whole. CV_UNDECIDED: the kernel is not to be
- * had somewhere. On failure nothing is allocated. */
+/* Panels from 0 to where the rest, |W| falling like x^(-5/2) or faster, no longer matters, at most 1e7, less
+ * for xi != 0. Each
+ * is halved until its last coefficients are below 1e-14 of the whole at the load. CV_UNDECIDED: the kernel is
+ * not to be had somewhere, or SA_PANELS_MAX were not enough, as for |xi| in the thousands. On failure nothing
+ * is allocated. */
 cv_status sa_panels_build(sa_panels *out, const sa_image *image, cv_message *why);
 void sa_panels_clear(sa_panels *p);
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "semianalytic/laplace.h"
-#include "semianalytic/roots.h"
+#include "semianalytic/roots_digits.h"
 #include "semianalytic/transitions.h"
 #include "tests/semianalytic_points.h"
 
@@ -195,6 +195,48 @@ START_TEST(digits_asked_for_are_right)
 }
 END_TEST
 
+/* A transition (transitions.h, from zeta at real q) is a root on the imaginary axis. */
+START_TEST(transitions_are_roots_on_the_axis)
+{
+    cv_params p;
+    cv_number low, high, mass, alpha;
+    sa_boundary *boundary;
+    sa_transitions all;
+    sa_track *t = make_track(table1[2], "0.05");
+    cv_number *numbers[] = {&low, &high, &mass, &alpha};
+    for (int i = 0; i < 4; i++)
+        cv_number_init(numbers[i]);
+    cv_params_init(&p);
+    set_params(&p, table1[2], "0.05");
+    set_text(&low, "0.3");
+    set_text(&high, "1");
+    set_text(&mass, "100");
+    ck_assert(sa_boundary_new(&boundary, &p, &low, &high, NULL) == CV_OK &&
+              sa_boundary_transitions(&all, boundary, 1, &mass, 30, NULL) == CV_OK && all.count > 0);
+    for (size_t i = 0; i < all.count; i++) {
+        const double complex q = mpfr_get_d(all.items[i].q, MPFR_RNDN);
+        sa_sheet s;
+        sa_rough_root rough = {q, 0};
+        sa_root root;
+        mpfr_get_q(alpha.factor, all.items[i].alpha);
+        ck_assert_int_eq(sa_sheet_at(&s, t, cv_number_get_double(&alpha), q), CV_OK);
+        sa_sheet_zeta(&rough.f_q, &s);
+        rough.f_q *= -100;
+        ck_assert_int_eq(sa_root_polish(&root, &rough, t, &alpha, &mass, 5), CV_OK);
+        mpfr_sub(root.im, root.im, all.items[i].q, MPFR_RNDN);
+        ck_assert(root.decided == CV_OK && fabs(mpfr_get_d(root.re, MPFR_RNDN)) < 1e-27 &&
+                  fabs(mpfr_get_d(root.im, MPFR_RNDN)) < 1e-27);
+        sa_root_clear(&root);
+    }
+    sa_transitions_clear(&all);
+    sa_boundary_free(boundary);
+    cv_params_clear(&p);
+    for (int i = 0; i < 4; i++)
+        cv_number_clear(numbers[i]);
+    sa_track_free(t);
+}
+END_TEST
+
 /* Beyond the axis the continuation is analytic: its differences in both directions are the slope that comes
  * from the poles; and it is the value that a Taylor series from below the axis has. */
 START_TEST(continuation_is_analytic)
@@ -265,6 +307,7 @@ int main(void)
     tcase_add_test(c, roots_pass_the_axis_where_lines_are_crossed);
     tcase_add_test(c, three_counts_agree_on_random_tracks);
     tcase_add_test(c, digits_asked_for_are_right);
+    tcase_add_test(c, transitions_are_roots_on_the_axis);
     tcase_add_test(c, continuation_is_analytic);
     tcase_add_test(c, continuation_starts_where_the_image_ends);
     tcase_add_test(c, undamped_tracks_are_refused);
