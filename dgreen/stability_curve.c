@@ -9,6 +9,8 @@
 static const double FLOOR = 0.01;
 /* Regions narrower than this, relative, are not checked by the winding. */
 static const double THIN = 1e-6;
+/* Relative accuracy of the parts of a vertex, so that rounding does not look like a bend. */
+static const double SMOOTH = 1e-8;
 
 typedef struct {
     dg_probe probe;
@@ -19,8 +21,10 @@ static cv_status value(dg_vertex *v, void *context)
 {
     const source *from = context;
     dg_value zeta;
-    const cv_status status = dg_zeta_adaptive(&zeta, from->probe.follow, from->probe.track, from->alpha,
-                                              CMPLX(from->delta, v->q), INFINITY, INFINITY);
+    cv_status status = dg_zeta_adaptive(&zeta, from->probe.follow, from->probe.track, from->alpha,
+                                        CMPLX(from->delta, v->q), SMOOTH, SMOOTH);
+    if (status == CV_UNDECIDED && fmax(zeta.re_error, zeta.im_error) <= SMOOTH * hypot(zeta.re, zeta.im))
+        status = CV_OK; /* a part that is zero, or as good as */
     v->re = from->factor * zeta.re;
     v->im = from->factor * zeta.im;
     return status;
@@ -33,9 +37,8 @@ static cv_status draw(dg_polyline *line, const dg_curve *curve, source *from, cv
     line->count = 0;
     for (size_t i = 0; i < curve->node_count && status == CV_OK; i++) {
         const dg_node *n = &curve->nodes[i];
-        dg_vertex v = {n->q, from->factor * n->re, from->factor * n->im};
-        if (from->delta > 0)
-            status = value(&v, from);
+        dg_vertex v = {n->q, 0, 0};
+        status = value(&v, from);
         if (status == CV_OK)
             status = dg_polyline_push(line, &v, why);
         else
