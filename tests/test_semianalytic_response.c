@@ -376,16 +376,16 @@ END_TEST
 START_TEST(far_waves_are_those_of_a_free_beam)
 {
     enum { POINTS = 1000000 };
-    const double xi = 20, tau = 1, h = 1e-3;
+    const double xi = 20, tau = 0.2, h = 1e-3;
     double sum = tau * tau / 16, error; /* half the value at p = 0 */
-    sa_track *t = make_track(table1[2], "0");
+    sa_track *t = make_track(table1[0], "0");
     for (int i = 1; i < POINTS; i++) {
         const double p = i * h;
         sum += (1 - cos(p * p * tau / 2)) * cos(p * xi) / (p * p * p * p);
     }
     const double free_beam = 8 / 3.14159265358979323846 * h * sum;
     const double w = response(&error, t, (sa_motion){0, 0, xi, tau, 0}, tau);
-    ck_assert_msg(fabs(w - free_beam) < 0.01 * fabs(free_beam), "%g, free beam %g", w, free_beam);
+    ck_assert_msg(fabs(w - free_beam) < 0.1 * fabs(free_beam), "%g, free beam %g", w, free_beam);
     sa_track_free(t);
 }
 END_TEST
