@@ -145,15 +145,23 @@ static int polish(complex long double l[DEGREE], int count, const track *t)
     return 0;
 }
 
-/* Rounding errors of d3 over its slope: how far the root may be off. */
-static long double uncertainty(const track *t, complex long double l)
+/* Real part of the root next to l, 0 when rounding errors could change its sign. At l = i sigma + tiny the
+ * even and the odd powers of l stay apart in the real and the imaginary part, so that Newton's step has a
+ * relatively accurate real part even where |l| LDBL_EPSILON exceeds it; steps from neighbouring numbers show
+ * how accurate. */
+static long double real_part(const track *t, complex long double l)
 {
-    system_jets s, at;
+    long double least = INFINITY, most = -INFINITY;
 
-    system_set(&s, t, l);
-    system_set(&at, t, l * (1 + 4 * LDBL_EPSILON));
-    return 16 * cabsl(at.d3.f - s.d3.f) / cabsl(s.d3.d) + 16 * cabsl(s.d3.f / s.d3.d) +
-           16 * LDBL_EPSILON * cabsl(l);
+    for (int k = -3; k <= 3; k++) {
+        system_jets s;
+        complex long double near = l * (1 + 2 * k * LDBL_EPSILON);
+        system_set(&s, t, near);
+        long double re = creall(near - s.d3.f / s.d3.d);
+        least = fminl(least, re);
+        most = fmaxl(most, re);
+    }
+    return fabsl(most + least) / 2 > 2 * (most - least) ? (most + least) / 2 : 0;
 }
 
 static void track_set(track *t, const cv_params *params, const cv_number *alpha)
@@ -188,11 +196,13 @@ cv_status sa_damped_terms(sa_steady *s, const cv_params *params, const cv_number
     for (int i = 0; i < s->count; i++) {
         system_jets at;
         sa_steady_term *term = &s->term[i];
-        system_set(&at, &t, l[i]);
-        if (!(fabsl(creall(l[i])) > uncertainty(&t, l[i]))) {
+        long double side = real_part(&t, l[i]);
+        if (side == 0) {
             return cv_fail(why, CV_UNDECIDED, "the damping is too small to tell on which side a wave runs");
         }
-        term->ahead = creall(l[i]) < 0;
+        l[i] = side + (complex long double)_Complex_I * cimagl(l[i]);
+        system_set(&at, &t, l[i]);
+        term->ahead = side < 0;
         term->p = (term->ahead ? -1 : 1) * (complex long double)_Complex_I * l[i];
         for (int f = 0; f < SA_FIELDS; f++) {
             term->weight[f] = (term->ahead ? 2 : -2) * at.top[f].f / at.d3.d;

@@ -96,7 +96,7 @@ static void compare_points(const sa_branch_curves *curves, const dense_point *de
     }
     int within = 0;
     for (int j = 0; j < count; j++) {
-        within += fabs(point[j].p) < dense[DENSE - 1].p;
+        within += fabs(point[j].p) > dense[0].p && fabs(point[j].p) < dense[DENSE - 1].p;
     }
     ck_assert_msg(matched == expected && within == expected, "alpha %.17g: %d of %d found, %d listed", alpha,
                   matched, expected, within);

@@ -14,7 +14,8 @@ enum { BITS = 1200 };
 static const double paper_case[4][6] = {
     {6, 35, 300, 7, 0, 0}, {6, 35, 30, 7, 0, 0}, {6, 5, 0.03, 3, 0, 0}, {3, 10, 0.03, 0.1, 0, 0}};
 
-/* out = d3 of (7)-(10) at q = 0 without damping; size = the same with all terms taken positive */
+/* out = d3 of (7)-(10) at q = 0 without damping; size: of its products, including what cancels inside the
+ * entries */
 static void d3(mpfr_t out, mpfr_t size, const cv_params *params, mpfr_t p, mpfr_t alpha)
 {
     const cv_number *from[6] = {&params->mu_s,    &params->mu_b,  &params->kappa_p,
@@ -45,17 +46,19 @@ static void d3(mpfr_t out, mpfr_t size, const cv_params *params, mpfr_t p, mpfr_
     mpfr_sub(c, c, d5, MPFR_RNDN);
     mpfr_mul(out, a, b, MPFR_RNDN);
     mpfr_mul(out, out, c, MPFR_RNDN);
-    mpfr_abs(size, out, MPFR_RNDN);
+    double P = mpfr_get_d(x, MPFR_RNDN), S = mpfr_get_d(s2, MPFR_RNDN), V[6];
+    for (int i = 0; i < 6; i++) {
+        V[i] = fabs(mpfr_get_d(v[i], MPFR_RNDN));
+    }
+    mpfr_set_d(
+        size, (P * P / 4 + V[5] * P + S + V[2]) * (V[2] + V[3] + V[0] * S) * (V[3] + 1 + V[4] * P + V[1] * S),
+        MPFR_RNDN);
     mpfr_sqr(v[3], v[3], MPFR_RNDN);
     mpfr_mul(v[3], v[3], a, MPFR_RNDN);
     mpfr_sub(out, out, v[3], MPFR_RNDN);
-    mpfr_abs(v[3], v[3], MPFR_RNDN);
-    mpfr_add(size, size, v[3], MPFR_RNDN);
     mpfr_sqr(v[2], v[2], MPFR_RNDN);
     mpfr_mul(v[2], v[2], c, MPFR_RNDN);
     mpfr_sub(out, out, v[2], MPFR_RNDN);
-    mpfr_abs(v[2], v[2], MPFR_RNDN);
-    mpfr_add(size, size, v[2], MPFR_RNDN);
     for (int i = 0; i < 6; i++) {
         mpfr_clear(v[i]);
     }

@@ -106,7 +106,9 @@ START_TEST(shapes_are_the_fourier_integral)
 }
 END_TEST
 
-/* Each term solves the three equations; those of the two sides meet at the force (defect). */
+/* Each term solves the three equations; those of the two sides meet at the force (defect). Two roots lie
+ * ahead when alpha^2 mu_b > eta_s, else three: the count is constant in Re qbar > 0 and, with damping, at
+ * qbar = 0. */
 START_TEST(shapes_solve_the_equations)
 {
     gsl_rng *rng = random_start("equations", 42);
@@ -126,7 +128,9 @@ START_TEST(shapes_solve_the_equations)
         }
         ck_assert_msg(s.defect <= 1e-12, "track %d alpha %g: defect %g", i / 4, cv_number_get_double(&alpha),
                       s.defect);
+        int ahead = 0;
         for (int j = 0; j < s.count; j++) {
+            ahead += s.term[j].ahead;
             const sa_steady_term *term = &s.term[j];
             complex double p = (complex double)term->p * (term->ahead ? 1 : -1);
             complex double w = (complex double)term->weight[0], v = (complex double)term->weight[1];
@@ -142,6 +146,10 @@ START_TEST(shapes_solve_the_equations)
                               cabs(row[r]), size);
             }
         }
+        double velocity = cv_number_get_double(&alpha);
+        int is_fast =
+            velocity * velocity * cv_number_get_double(&params.mu_b) > cv_number_get_double(&params.eta_s);
+        ck_assert_int_eq(ahead, is_fast ? 2 : 3);
     }
     cv_params_clear(&params);
     cv_number_clear(&alpha);
