@@ -16,6 +16,9 @@ typedef struct {
 /* d3 and the numerators of (12) for W, V and U */
 typedef struct {
     jet d3, top[SA_FIELDS];
+    jet other;   /* equal to top[0] where d3 = 0; f, x and a only */
+    int cancels; /* top[0] is small against its terms, as for waves that hardly move the rail: other is
+                    accurate */
 } system_jets;
 
 static jet constant(long double c)
@@ -39,6 +42,14 @@ static jet product(jet u, jet v)
                  u.xx * v.f + 2 * u.x * v.x + u.f * v.xx, u.xa * v.f + u.x * v.a + u.a * v.x + u.f * v.xa};
 }
 
+/* first derivatives only */
+static jet quotient(jet u, jet v)
+{
+    complex long double f = u.f / v.f;
+
+    return (jet){.f = f, .x = (u.x - f * v.x) / v.f, .a = (u.a - f * v.a) / v.f};
+}
+
 /* With rail = p^4/4 - eta_N p^2 - L, g = 1 + eta_s p^2 - mu_b L, D3 = -mu_s L, L = a x, and C = kappa_b + g:
  * t = D3 C + kappa_b g, d2 = kappa_p C + t, d3 = rail d2 + kappa_p t: no large stiffness is subtracted. */
 static void system_set(system_jets *s, const sa_dispersion *track, complex long double x, long double a)
@@ -54,6 +65,8 @@ static void system_set(system_jets *s, const sa_dispersion *track, complex long 
     s->top[1] = times(track->kappa_p, C);
     s->top[2] = constant(track->kappa_p * track->kappa_b);
     s->d3 = sum(product(rail, s->top[0]), times(track->kappa_p, t));
+    s->other = quotient(times(-track->kappa_p, t), rail);
+    s->cancels = cabsl(s->top[0].f) < 0.1L * cabsl(t.f);
 }
 
 /* Start values: d3(p, 0) as a polynomial in x, in double. Returns its degree. */
@@ -135,8 +148,9 @@ static void pole_set(sa_undamped_pole *pole, const sa_dispersion *track, complex
     long double share = is_wave || cimagl(x) != 0 ? 2 : 1;
     for (int f = 0; f < SA_FIELDS; f++) {
         complex long double factor = I_UNIT * share / pole->p;
-        complex long double ratio = s.top[f].f / slope;
-        complex long double dtop = s.top[f].x * dx + s.top[f].a * 2 * alpha;
+        const jet *top = f == 0 && s.cancels ? &s.other : &s.top[f];
+        complex long double ratio = top->f / slope;
+        complex long double dtop = top->x * dx + top->a * 2 * alpha;
         pole->weight[f] = factor * ratio;
         pole->dweight[f] = factor * ((dtop - ratio * dslope) / slope - ratio * pole->dp / pole->p);
     }
