@@ -3,9 +3,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/output.h"
 #include "common/selection.h"
 #include "compare/efficiency.h"
-#include "compare/output.h"
 #include "compare/report.h"
 
 static const char HELP[] =
@@ -138,7 +138,7 @@ static cv_status report_to_file(reporter *report, const cmp_run *run, const opti
     if (fclose(memory) != 0 && status == CV_OK)
         status = cv_fail(why, CV_FAILED, "out of memory");
     if (status == CV_OK)
-        status = cmp_output_write(o->output, bytes, n, why);
+        status = cv_output_write(o->output, bytes, n, why);
     free(bytes);
     return status;
 }
@@ -175,7 +175,7 @@ static cv_status work(const void *typed, const cv_arguments *arguments, FILE *ou
     if (status != CV_OK)
         return status;
     if (o->output != NULL)
-        status = cmp_output_check(o->output, why);
+        status = cv_output_check(o->output, why);
     if (status == CV_OK)
         status = compare(arguments->command != NULL, o, &file, out, log, why);
     cv_casefile_clear(&file);

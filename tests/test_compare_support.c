@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "compare/output.h"
+#include "common/output.h"
 #include "compare/pool.h"
 #include "compare/table.h"
 
@@ -132,14 +132,14 @@ START_TEST(a_file_is_written_and_replaced)
 {
     struct stat info;
     cv_message why = {""};
-    ck_assert_int_eq(cmp_output_check(path, &why), CV_OK);
+    ck_assert_int_eq(cv_output_check(path, &why), CV_OK);
     umask(022);
-    ck_assert_int_eq(cmp_output_write(path, "one", 3, &why), CV_OK);
+    ck_assert_int_eq(cv_output_write(path, "one", 3, &why), CV_OK);
     expect_content(path, "one");
     ck_assert_int_eq(stat(path, &info), 0);
     ck_assert_int_eq((int)(info.st_mode & 07777), 0644);
     ck_assert_int_eq(chmod(path, 0600), 0);
-    ck_assert_int_eq(cmp_output_write(path, "another", 7, &why), CV_OK);
+    ck_assert_int_eq(cv_output_write(path, "another", 7, &why), CV_OK);
     expect_content(path, "another");
     ck_assert_int_eq(stat(path, &info), 0);
     ck_assert_int_eq((int)(info.st_mode & 07777), 0600);
@@ -150,9 +150,9 @@ START_TEST(a_link_keeps_pointing)
 {
     struct stat info;
     cv_message why = {""};
-    ck_assert_int_eq(cmp_output_write(path, "one", 3, &why), CV_OK);
+    ck_assert_int_eq(cv_output_write(path, "one", 3, &why), CV_OK);
     ck_assert_int_eq(symlink(path, again), 0);
-    ck_assert_int_eq(cmp_output_write(again, "two", 3, &why), CV_OK);
+    ck_assert_int_eq(cv_output_write(again, "two", 3, &why), CV_OK);
     ck_assert_int_eq(lstat(again, &info), 0);
     ck_assert(S_ISLNK(info.st_mode));
     expect_content(path, "two");
@@ -164,9 +164,9 @@ START_TEST(what_cannot_be_written_is_said_before_and_after)
     static const char *const bad[] = {"", "/tmp", "/tmp/", "/nonexistent/report", "/dev/null/report"};
     cv_message why;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        ck_assert_msg(cmp_output_check(bad[i], &why) == CV_FAILED, "%s", bad[i]);
+        ck_assert_msg(cv_output_check(bad[i], &why) == CV_FAILED, "%s", bad[i]);
         ck_assert_msg(strncmp(why.text, "cannot write ", 13) == 0, "%s", why.text);
-        ck_assert_msg(cmp_output_write(bad[i], "x", 1, &why) == CV_FAILED, "%s", bad[i]);
+        ck_assert_msg(cv_output_write(bad[i], "x", 1, &why) == CV_FAILED, "%s", bad[i]);
     }
 }
 END_TEST
@@ -179,14 +179,14 @@ static int write_beyond_limit(void)
     signal(SIGXFSZ, SIG_IGN);
     if (setrlimit(RLIMIT_FSIZE, &small) != 0)
         return -1;
-    return (int)cmp_output_write(path, "abcdef", 6, &why);
+    return (int)cv_output_write(path, "abcdef", 6, &why);
 }
 
 START_TEST(a_disk_that_fills_up_leaves_the_old_file)
 {
     int status;
     cv_message why = {""};
-    ck_assert_int_eq(cmp_output_write(path, "ab", 2, &why), CV_OK);
+    ck_assert_int_eq(cv_output_write(path, "ab", 2, &why), CV_OK);
     fflush(NULL);
     pid_t child = fork();
     if (child == 0)
@@ -202,10 +202,10 @@ START_TEST(devices_are_written_directly)
 {
     struct stat info;
     cv_message why;
-    ck_assert_int_eq(cmp_output_check("/dev/full", &why), CV_OK);
-    ck_assert_int_eq(cmp_output_write("/dev/full", "x", 1, &why), CV_FAILED);
+    ck_assert_int_eq(cv_output_check("/dev/full", &why), CV_OK);
+    ck_assert_int_eq(cv_output_write("/dev/full", "x", 1, &why), CV_FAILED);
     ck_assert_ptr_nonnull(strstr(why.text, "/dev/full"));
-    ck_assert_int_eq(cmp_output_write("/dev/null", "x", 1, &why), CV_OK);
+    ck_assert_int_eq(cv_output_write("/dev/null", "x", 1, &why), CV_OK);
     ck_assert_int_eq(stat("/dev/null", &info), 0);
     ck_assert(S_ISCHR(info.st_mode));
 }

@@ -1,4 +1,4 @@
-#include "compare/output.h"
+#include "common/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -28,7 +28,7 @@ static int folder_of(char out[PATH_MAX], const char *path)
     return 1;
 }
 
-cv_status cmp_output_check(const char *path, cv_message *why)
+cv_status cv_output_check(const char *path, cv_message *why)
 {
     struct stat info;
     char folder[PATH_MAX];
@@ -114,7 +114,7 @@ static cv_status write_and_rename(const char *target, const char *bytes, size_t 
     return status;
 }
 
-cv_status cmp_output_write(const char *path, const char *bytes, size_t n, cv_message *why)
+cv_status cv_output_write(const char *path, const char *bytes, size_t n, cv_message *why)
 {
     struct stat info;
     if (stat(path, &info) != 0)
