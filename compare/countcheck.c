@@ -27,28 +27,29 @@ static int running(const cmp_list *list, double alpha)
     return i == 0 ? list->items[0].below : list->items[i - 1].above;
 }
 
-static void judge_sample(const check *c, double a, const int counted[CMP_METHODS])
+void cmp_judge_counts(cmp_verdict *v, cmp_counts *out, const cmp_list *const lists[CMP_METHODS],
+                      const char *const names[CMP_METHODS], double alpha, const int counted[CMP_METHODS])
 {
     if (counted[0] != counted[1])
-        cmp_verdict_worsen(c->verdict, CMP_DISAGREE, "at alpha = %.15g %s counts %d unstable roots, %s %d", a,
-                           c->methods[0]->name, counted[0], c->methods[1]->name, counted[1]);
+        cmp_verdict_incomplete(v, CMP_DISAGREE, "at alpha = %.15g %s counts %d unstable roots, %s %d", alpha,
+                               names[0], counted[0], names[1], counted[1]);
     for (int m = 0; m < CMP_METHODS; m++) {
-        const int listed = running(c->lists[m], a);
-        if (c->lists[m]->status == CV_OK && listed >= 0 && listed != counted[m])
-            cmp_verdict_worsen(
-                c->verdict, CMP_DISAGREE,
-                "at alpha = %.15g the transitions of %s leave %d unstable roots, its count is %d", a,
-                c->methods[m]->name, listed, counted[m]);
+        const int listed = running(lists[m], alpha);
+        if (lists[m]->status == CV_OK && listed >= 0 && listed != counted[m])
+            cmp_verdict_incomplete(
+                v, CMP_DISAGREE,
+                "at alpha = %.15g the transitions of %s leave %d unstable roots, its count is %d", alpha,
+                names[m], listed, counted[m]);
     }
-    if (c->out->start < 0)
-        c->out->start = counted[0];
+    if (out->start < 0)
+        out->start = counted[0];
     for (int m = 0; m < CMP_METHODS; m++)
-        if (c->lists[m]->status == CV_OK && c->lists[m]->count == 0 && counted[m] != c->out->start)
-            cmp_verdict_worsen(
-                c->verdict, CMP_DISAGREE,
+        if (lists[m]->status == CV_OK && lists[m]->count == 0 && counted[m] != out->start)
+            cmp_verdict_incomplete(
+                v, CMP_DISAGREE,
                 "%s has no transition, but %d unstable roots at the lowest velocity and %d at %.15g",
-                c->methods[m]->name, c->out->start, counted[m], a);
-    c->out->samples++;
+                names[m], out->start, counted[m], alpha);
+    out->samples++;
 }
 
 /* Counts at alpha by both; CV_UNDECIDED with nothing judged when one of them cannot. */
@@ -60,7 +61,8 @@ static cv_status sample(const check *c, double alpha)
         if (status != CV_OK)
             return status;
     }
-    judge_sample(c, alpha, counted);
+    cmp_judge_counts(c->verdict, c->out, c->lists,
+                     (const char *const[]){c->methods[0]->name, c->methods[1]->name}, alpha, counted);
     return CV_OK;
 }
 

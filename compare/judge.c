@@ -9,17 +9,32 @@ void cmp_verdict_init(cmp_verdict *v)
 {
     v->kind = CMP_AGREE;
     v->digits = HUGE_VAL;
+    v->incomplete = 0;
     v->reason.text[0] = '\0';
 }
 
-void cmp_verdict_worsen(cmp_verdict *v, cmp_kind kind, const char *format, ...)
+static void worsen(cmp_verdict *v, cmp_kind kind, const char *format, va_list arguments)
 {
     if (kind <= v->kind)
         return;
     v->kind = kind;
+    vsnprintf(v->reason.text, sizeof v->reason.text, format, arguments);
+}
+
+void cmp_verdict_worsen(cmp_verdict *v, cmp_kind kind, const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(v->reason.text, sizeof v->reason.text, format, arguments);
+    worsen(v, kind, format, arguments);
+    va_end(arguments);
+}
+
+void cmp_verdict_incomplete(cmp_verdict *v, cmp_kind kind, const char *format, ...)
+{
+    va_list arguments;
+    v->incomplete = 1;
+    va_start(arguments, format);
+    worsen(v, kind, format, arguments);
     va_end(arguments);
 }
 
@@ -59,7 +74,7 @@ static int usable(const cmp_transition *t)
 static void judge_list(cmp_verdict *v, const cmp_list *list, const char *name, int digits)
 {
     if (list->status != CV_OK)
-        cmp_verdict_worsen(v, CMP_UNDECIDED, "%s could not decide: %.400s", name, list->why.text);
+        cmp_verdict_incomplete(v, CMP_UNDECIDED, "%s could not decide: %.400s", name, list->why.text);
     for (size_t i = 0; i < list->count; i++) {
         const cmp_transition *t = &list->items[i];
         const double alpha = mpfr_get_d(t->alpha, MPFR_RNDN), q = mpfr_get_d(t->q, MPFR_RNDN);
@@ -70,8 +85,8 @@ static void judge_list(cmp_verdict *v, const cmp_list *list, const char *name, i
             continue;
         }
         if (t->decided != CV_OK)
-            cmp_verdict_worsen(v, CMP_UNDECIDED, "%s is undecided about alpha = %.15g, q = %.15g", name,
-                               alpha, q);
+            cmp_verdict_incomplete(v, CMP_UNDECIDED, "%s is undecided about alpha = %.15g, q = %.15g", name,
+                                   alpha, q);
         if (!(log10_ratio(t->alpha_error, t->alpha) <= -digits) ||
             !(log10_ratio(t->q_error, t->q) <= -digits))
             cmp_verdict_worsen(v, CMP_UNDECIDED, "the bounds of %s at alpha = %.15g do not give %d digits",
@@ -82,9 +97,9 @@ static void judge_list(cmp_verdict *v, const cmp_list *list, const char *name, i
         if (i > 0 && mpfr_less_p(t->alpha, t[-1].alpha))
             cmp_verdict_worsen(v, CMP_DISAGREE, "%s is not in ascending order at alpha = %.15g", name, alpha);
         if (i > 0 && t->below != t[-1].above)
-            cmp_verdict_worsen(v, CMP_DISAGREE,
-                               "%s has %d unstable roots above alpha = %.15g but %d below %.15g", name,
-                               t[-1].above, mpfr_get_d(t[-1].alpha, MPFR_RNDN), t->below, alpha);
+            cmp_verdict_incomplete(v, CMP_DISAGREE,
+                                   "%s has %d unstable roots above alpha = %.15g but %d below %.15g", name,
+                                   t[-1].above, mpfr_get_d(t[-1].alpha, MPFR_RNDN), t->below, alpha);
     }
 }
 
@@ -141,9 +156,9 @@ static void judge_single(cmp_verdict *v, const cmp_list *const lists[], const cm
             cmp_verdict_worsen(v, CMP_UNDECIDED, "alpha = %.15g of %s is at the end of the range: in or out",
                                alpha, names[m]);
         else
-            cmp_verdict_worsen(v, CMP_DISAGREE,
-                               "only %s has alpha = %.15g, q = %.15g (unstable roots %d to %d)", names[m],
-                               alpha, q, t->below, t->above);
+            cmp_verdict_incomplete(v, CMP_DISAGREE,
+                                   "only %s has alpha = %.15g, q = %.15g (unstable roots %d to %d)", names[m],
+                                   alpha, q, t->below, t->above);
     }
 }
 

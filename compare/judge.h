@@ -9,6 +9,8 @@ typedef enum { CMP_AGREE = 0, CMP_UNDECIDED = 1, CMP_DISAGREE = 2 } cmp_kind; /*
 typedef struct {
     cmp_kind kind;
     double digits;     /* digits of agreement; meaningful only where the kind is CMP_AGREE */
+    int incomplete;    /* 1: a list may lack a transition or have one too many, by its own account, by the
+                          other list or by a count, so that a denser search may change the verdict */
     cv_message reason; /* why not CMP_AGREE, or a remark; may be empty */
 } cmp_verdict;
 
@@ -17,6 +19,10 @@ void cmp_verdict_init(cmp_verdict *v); /* CMP_AGREE, digits infinite, no reason 
 /* The verdict becomes "kind" with this reason unless it is already as bad or worse: the first reason of the
  * worst kind stands. */
 void cmp_verdict_worsen(cmp_verdict *v, cmp_kind kind, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The same, and the verdict is incomplete whether or not this reason stands. */
+void cmp_verdict_incomplete(cmp_verdict *v, cmp_kind kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 const char *cmp_kind_name(cmp_kind kind); /* "agree", "undecided", "disagree" */

@@ -89,6 +89,9 @@ static cv_status do_phases(cmp_run *run, size_t threads, int with_checks, FILE *
     p.doing = "checks     ";
     if (status == CV_OK && with_checks)
         status = cmp_run_judge(run, threads, &listener, why);
+    p.doing = "again      ";
+    if (status == CV_OK && with_checks)
+        status = cmp_run_search_again(run, threads, &listener, why);
     if (p.shown)
         fputc('\n', log);
     return status;

@@ -61,9 +61,10 @@ typedef struct {
                       const cv_number *alpha_max, cv_message *why);
     void (*close)(void *handle);
     /* lists[0 .. mass_count-1] initialised by the caller; what cannot be decided is said in the lists, not by
-     * the status returned; alpha_min <= alpha <= alpha_max; relative error of alpha and q below 10^-digits */
+     * the status returned; alpha_min <= alpha <= alpha_max; relative error of alpha and q below 10^-digits.
+     * level 0: the usual search; each further one searches more densely */
     cv_status (*find)(void *handle, cmp_list *lists, cmp_effort *effort, size_t mass_count,
-                      const cv_number *mass_ratios, int digits, cv_message *why);
+                      const cv_number *mass_ratios, int digits, int level, cv_message *why);
     /* number of roots of 1 - eta_M zeta = 0 with Re qbar > 0, for each of the mass ratios */
     cv_status (*count)(void *handle, int *roots, double alpha, size_t mass_count,
                        const cv_number *mass_ratios, cv_message *why);

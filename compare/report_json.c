@@ -137,6 +137,7 @@ static json_t *json_agreement(writer *w, const cmp_result *r)
         r->verdict.reason.text[0] != '\0' ? json_string(r->verdict.reason.text) : json_null());
     set(w, o, "unstable_roots_at_start", r->counts.start >= 0 ? json_integer(r->counts.start) : json_null());
     set(w, o, "velocities_counted", json_integer((json_int_t)r->counts.samples));
+    set(w, o, "searches", json_integer(r->searches));
     set(w, o, "largest_residual",
         mpfr_zero_p(r->worst.residual) ? json_null()
                                        : json_string(cmp_format_mpfr(&w->text, r->worst.residual, 2)));

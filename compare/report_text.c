@@ -107,20 +107,28 @@ static cv_status print_table(FILE *out, const cmp_case *c, cv_message *why)
     return status;
 }
 
-/* Why not: one line for each combination that has something to say beyond "none, 0" in its row. */
+/* One line for a combination that has something to say beyond "none, 0" in its row. */
+static void print_reason(FILE *out, const cmp_result *r, const char *damping, const char *eta_M)
+{
+    const cmp_verdict *v = &r->verdict;
+    const int explained = v->reason.text[0] != '\0' && (v->kind != CMP_AGREE || r->counts.start > 0);
+    if (!explained && r->searches <= 1)
+        return;
+    fprintf(out, "  %s, damping %s, eta_M %s: ", cmp_kind_name(v->kind), damping, eta_M);
+    if (r->searches > 1)
+        fprintf(out, "searched %d times, more densely each time%s", r->searches, explained ? "; " : "");
+    fprintf(out, "%s\n", explained ? v->reason.text : "");
+}
+
 static void print_reasons(FILE *out, const cmp_case *c)
 {
     cmp_damping_text damping;
     cmp_number_text mass;
     for (size_t l = 0; l < c->level_count; l++)
-        for (size_t m = 0; m < c->from->mass_count; m++) {
-            const cmp_result *r = &c->levels[l].results[m];
-            const cmp_verdict *v = &r->verdict;
-            if (v->reason.text[0] != '\0' && (v->kind != CMP_AGREE || r->counts.start > 0))
-                fprintf(out, "  %s, damping %s, eta_M %s: %s\n", cmp_kind_name(v->kind),
-                        cmp_format_damping(&damping, &c->levels[l].params, PARAMETER_DIGITS),
-                        cmp_format_exact(&mass, &c->from->mass_ratios[m], PARAMETER_DIGITS), v->reason.text);
-        }
+        for (size_t m = 0; m < c->from->mass_count; m++)
+            print_reason(out, &c->levels[l].results[m],
+                         cmp_format_damping(&damping, &c->levels[l].params, PARAMETER_DIGITS),
+                         cmp_format_exact(&mass, &c->from->mass_ratios[m], PARAMETER_DIGITS));
 }
 
 static void add_transitions(cmp_table *t, const cmp_run *run, const cmp_level *level, const cv_case *from,

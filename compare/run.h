@@ -13,7 +13,11 @@ typedef struct {
     cmp_verdict verdict;
     cmp_counts counts;
     cmp_residual worst; /* of any transition put back into either zeta */
+    int searches;       /* by each method, each denser than the one before; the last one is judged */
 } cmp_result;
+
+/* Nothing judged yet; searches stay. */
+void cmp_result_reset(cmp_result *r);
 
 /* One damping level of a case; arrays by mass ratio, in the order of the case. */
 typedef struct {
@@ -42,10 +46,14 @@ cv_status cmp_run_init(cmp_run *out, const cv_casefile *file, const char *case_n
                        const cmp_method *const methods[CMP_METHODS], cv_message *why);
 void cmp_run_clear(cmp_run *run);
 
-/* Finds the transitions by both methods, then judges, puts back and counts. The outcome is independent of the
- * number of threads, cpu_seconds excepted. CV_OK whatever the verdicts. */
+/* Finds the transitions by both methods; judges, puts back and counts; then, for the mass ratios whose
+ * verdict is incomplete (judge.h), searches again by both methods more densely, without telling either where,
+ * and judges again, until it is not or CMP_SEARCHES are done. The outcome is independent of the number of
+ * threads, cpu_seconds excepted. CV_OK whatever the verdicts. */
+enum { CMP_SEARCHES = 3 };
 cv_status cmp_run_find(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why);
 cv_status cmp_run_judge(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why);
+cv_status cmp_run_search_again(cmp_run *run, size_t threads, const cmp_listener *listener, cv_message *why);
 
 /* Verdicts counted over a run. */
 typedef struct {

@@ -58,9 +58,10 @@ static cv_status copy_list(cmp_list *to, const dg_transition_list *from, cv_mess
 }
 
 static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t mass_count,
-                      const cv_number *mass_ratios, int digits, cv_message *why)
+                      const cv_number *mass_ratios, int digits, int level, cv_message *why)
 {
     handle *h = opaque;
+    (void)level;
     dg_effort cost = {0, 0, 0};
     dg_transition_list *found = calloc(mass_count, sizeof *found);
     if (found == NULL)

@@ -68,9 +68,10 @@ static cv_status copy_list(cmp_list *to, const sa_transitions *from, cv_message 
 }
 
 static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t mass_count,
-                      const cv_number *mass_ratios, int digits, cv_message *why)
+                      const cv_number *mass_ratios, int digits, int level, cv_message *why)
 {
     handle *h = opaque;
+    (void)level;
     sa_transitions *found = calloc(mass_count, sizeof *found);
     if (found == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");

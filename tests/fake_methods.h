@@ -5,6 +5,7 @@
 #ifndef CRITVEL_TESTS_FAKE_METHODS_H
 #define CRITVEL_TESTS_FAKE_METHODS_H
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,25 +34,33 @@ typedef struct {
     int start;            /* unstable roots at alpha_min */
     cv_status find, open; /* returned by find, open */
     int undecided_list;
+    int mends; /* effort level of the search from which on drop, move and undecided_list do not happen */
+    int missed_pair;      /* the count knows a pair of transitions that no search finds */
+    unsigned searched[3]; /* mass ratios searched at each effort level */
 } fake_faults;
 
+/* Between these velocities two more roots are unstable, if missed_pair says so. */
+static const double FAKE_PAIR[] = {0.8, 0.86};
+
 static fake_faults fake[CMP_METHODS];
+static pthread_mutex_t fake_lock = PTHREAD_MUTEX_INITIALIZER;
 
 static void fake_reset(void)
 {
     memset(fake, 0, sizeof fake);
 }
 
-static cv_status fake_list(const fake_faults *f, cmp_list *list)
+static cv_status fake_list(const fake_faults *f, cmp_list *list, int level)
 {
+    const int spoilt = f->mends == 0 || level < f->mends;
     int roots = f->start;
     mpfr_t alpha, q;
     mpfr_inits2(200, alpha, q, (mpfr_ptr)0);
     for (int k = 0; k < FAKE_TRANSITIONS; k++) {
-        if (f->drop == k + 1)
+        if (spoilt && f->drop == k + 1)
             continue;
         mpfr_set_d(alpha, FAKE_TRUTH[k].alpha, MPFR_RNDN);
-        if (f->move == k + 1) {
+        if (spoilt && f->move == k + 1) {
             mpfr_t by;
             mpfr_init2(by, 200);
             mpfr_set_d(by, f->by, MPFR_RNDN);
@@ -65,7 +74,7 @@ static cv_status fake_list(const fake_faults *f, cmp_list *list)
         roots += FAKE_TRUTH[k].step;
     }
     mpfr_clears(alpha, q, (mpfr_ptr)0);
-    list->status = f->undecided_list ? CV_UNDECIDED : CV_OK;
+    list->status = spoilt && f->undecided_list ? CV_UNDECIDED : CV_OK;
     return CV_OK;
 }
 
@@ -75,16 +84,19 @@ static int fake_is_one(const cv_number *eta_M)
 }
 
 static cv_status fake_find(void *handle, cmp_list *lists, cmp_effort *effort, size_t mass_count,
-                           const cv_number *mass_ratios, int digits, cv_message *why)
+                           const cv_number *mass_ratios, int digits, int level, cv_message *why)
 {
-    const fake_faults *f = handle;
+    fake_faults *f = handle;
     (void)digits;
+    pthread_mutex_lock(&fake_lock);
+    f->searched[level] += (unsigned)mass_count;
+    pthread_mutex_unlock(&fake_lock);
     if (f->find != CV_OK)
         return cv_fail(why, f->find, "the fake was told to fail");
     *effort = (cmp_effort){1, 2, 3, 0.0};
     for (size_t i = 0; i < mass_count; i++)
         if (fake_is_one(&mass_ratios[i]))
-            (void)fake_list(f, &lists[i]);
+            (void)fake_list(f, &lists[i], level);
     return CV_OK;
 }
 
@@ -99,6 +111,8 @@ static cv_status fake_count(void *handle, int *roots, double alpha, size_t mass_
         for (int k = 0; k < FAKE_TRANSITIONS && (f->count_all || fake_is_one(&mass_ratios[i])); k++)
             if (f->drop_from_count != k + 1 && alpha > FAKE_TRUTH[k].alpha)
                 roots[i] += FAKE_TRUTH[k].step;
+        if (f->missed_pair && fake_is_one(&mass_ratios[i]) && alpha > FAKE_PAIR[0] && alpha < FAKE_PAIR[1])
+            roots[i] += 2;
     }
     return CV_OK;
 }

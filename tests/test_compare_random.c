@@ -81,6 +81,7 @@ START_TEST(random_tracks_do_not_disagree)
     ck_assert_int_eq(cmp_run_init(&run, &file, NULL, NULL, methods, &why), CV_OK);
     ck_assert_msg(cmp_run_find(&run, 2, &nobody, &why) == CV_OK, "%s", why.text);
     ck_assert_msg(cmp_run_judge(&run, 2, &nobody, &why) == CV_OK, "%s", why.text);
+    ck_assert_msg(cmp_run_search_again(&run, 2, &nobody, &why) == CV_OK, "%s", why.text);
     cmp_run_summary(&s, &run);
     print_doubts(&run);
     printf("%zu combinations: %zu agree, %zu undecided, %zu disagree\n", s.total, s.of_kind[CMP_AGREE],

@@ -48,6 +48,7 @@ static void compute(size_t threads)
     cv_message why = {""};
     ck_assert_msg(cmp_run_find(&run, threads, &NOBODY, &why) == CV_OK, "%s", why.text);
     ck_assert_msg(cmp_run_judge(&run, threads, &NOBODY, &why) == CV_OK, "%s", why.text);
+    ck_assert_msg(cmp_run_search_again(&run, threads, &NOBODY, &why) == CV_OK, "%s", why.text);
 }
 
 /* The report as a string the caller frees. */
@@ -121,6 +122,22 @@ START_TEST(json_has_the_fields_of_the_schema)
     ck_assert_str_eq(agreement, "agree");
     ck_assert_double_eq(digits, 23.0); /* log10(0.125 / 1e-24) = 23.097, rounded down */
     json_decref(root);
+}
+END_TEST
+
+START_TEST(further_searches_are_reported)
+{
+    fake[1].drop = 1;
+    fake[1].mends = 2;
+    compute(2);
+    char *text = report(0, 0, &NOTHING), *json = report(1, 0, &NOTHING);
+    ck_assert_ptr_nonnull(
+        strstr(text, "\n  agree, damping 0.1, eta_M 1: searched 3 times, more densely each time\n"));
+    ck_assert_ptr_null(strstr(text, "eta_M 3: "));
+    ck_assert_ptr_nonnull(strstr(json, "\"searches\": 3,"));
+    ck_assert_ptr_nonnull(strstr(json, "\"searches\": 1,"));
+    free(text);
+    free(json);
 }
 END_TEST
 
@@ -312,6 +329,7 @@ int main(void)
     TCase *t = tcase_create("manufactured methods");
     tcase_add_checked_fixture(t, setup, teardown);
     tcase_add_test(t, json_has_the_fields_of_the_schema);
+    tcase_add_test(t, further_searches_are_reported);
     tcase_add_test(t, json_of_a_disagreement_has_null_digits_and_a_reason);
     tcase_add_test(t, a_mass_without_transitions_has_a_null_limit);
     tcase_add_test(t, reports_are_the_same_for_any_number_of_threads);

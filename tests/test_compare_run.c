@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "compare/countsweep.h"
 #include "tests/fake_methods.h"
 
 static const char FILE_TEXT[] =
@@ -43,6 +44,7 @@ static const cmp_result *outcome(void)
     cv_message why = {""};
     ck_assert_msg(cmp_run_find(&run, 2, &NOBODY, &why) == CV_OK, "%s", why.text);
     ck_assert_msg(cmp_run_judge(&run, 2, &NOBODY, &why) == CV_OK, "%s", why.text);
+    ck_assert_msg(cmp_run_search_again(&run, 2, &NOBODY, &why) == CV_OK, "%s", why.text);
     return &run.cases[0].levels[0].results[0];
 }
 
@@ -59,7 +61,11 @@ START_TEST(faultless_methods_agree)
     ck_assert_msg(r->verdict.kind == CMP_AGREE, "%s", r->verdict.reason.text);
     ck_assert_double_eq_tol(r->verdict.digits, 23.1, 0.1); /* 1e-24 at q = 0.125 */
     ck_assert_int_eq(r->counts.start, 0);
-    ck_assert_uint_eq(r->counts.samples, FAKE_TRANSITIONS + 3); /* both ends, between, outside */
+    ck_assert_uint_eq(r->counts.samples,
+                      FAKE_TRANSITIONS + 3 + CMP_SWEEP); /* ends, between, outside, sweep */
+    ck_assert_int_eq(r->searches, 1);
+    for (int m = 0; m < CMP_METHODS; m++)
+        ck_assert_uint_eq(fake[m].searched[0] + 100 * fake[m].searched[1], 8);
     ck_assert(mpfr_zero_p(r->worst.residual));
     cmp_summary s;
     cmp_run_summary(&s, &run);
@@ -169,6 +175,61 @@ START_TEST(an_undecided_list_is_undecided)
 }
 END_TEST
 
+START_TEST(what_a_denser_search_mends_agrees)
+{
+    for (int fault = 0; fault < 3; fault++)
+        for (int level = 1; level < CMP_SEARCHES; level++) {
+            fake[1].drop = fault == 0 ? 2 : 0;
+            fake[1].undecided_list = fault == 1;
+            fake[0].drop = fault == 2 ? 3 : 0; /* missing in both: seen by the count alone */
+            fake[1].drop = fault == 2 ? 3 : fake[1].drop;
+            fake[0].mends = fake[1].mends = level;
+            const cmp_result *r = outcome();
+            ck_assert_msg(r->verdict.kind == CMP_AGREE, "%d: %s", fault, r->verdict.reason.text);
+            ck_assert_int_eq(r->searches, level + 1);
+            ck_assert_int_eq(r->verdict.incomplete, 0);
+            for (int m = 0; m < CMP_METHODS; m++) {
+                /* both, and only eta_M = 1 of each case and level */
+                ck_assert_uint_eq(fake[m].searched[1], 4);
+                ck_assert_uint_eq(fake[m].searched[2], level == 2 ? 4 : 0);
+            }
+            ck_assert_int_eq(run.cases[0].levels[0].results[1].searches, 1);
+            ck_assert_uint_eq(run.cases[0].levels[0].effort[0].evaluations, 1 + (unsigned)level);
+            teardown();
+            setup();
+        }
+}
+END_TEST
+
+START_TEST(what_no_search_mends_stays)
+{
+    fake[0].drop = 4;
+    expect(CMP_DISAGREE, "only dgreen has alpha = 1.25");
+    ck_assert_int_eq(run.cases[0].levels[0].results[0].searches, CMP_SEARCHES);
+}
+END_TEST
+
+START_TEST(a_wrong_value_is_no_reason_to_search_again)
+{
+    fake[0].move = 2;
+    fake[0].by = 1e-15;
+    expect(CMP_DISAGREE, "their bounds allow");
+    ck_assert_int_eq(run.cases[0].levels[0].results[0].searches, 1);
+    ck_assert_uint_eq(fake[0].searched[1], 0);
+}
+END_TEST
+
+START_TEST(a_pair_both_searches_missed_in_a_wide_gap_is_caught_by_the_sweep)
+{
+    fake[0].missed_pair = fake[1].missed_pair = 1; /* not in the middle of 0.5 .. 1.25 */
+    expect(CMP_DISAGREE, "of semianalytic leave 2 unstable roots, its count is 4");
+    teardown();
+    setup();
+    fake[1].missed_pair = 1;
+    expect(CMP_DISAGREE, "counts 2 unstable roots, dgreen 4");
+}
+END_TEST
+
 START_TEST(unstable_from_the_start_is_remarked)
 {
     fake[0].start = fake[1].start = 2;
@@ -246,6 +307,10 @@ int main(void)
     tcase_add_test(t, a_zeta_too_blunt_to_tell_is_undecided);
     tcase_add_test(t, a_count_that_cannot_be_had_is_undecided);
     tcase_add_test(t, an_undecided_list_is_undecided);
+    tcase_add_test(t, what_a_denser_search_mends_agrees);
+    tcase_add_test(t, what_no_search_mends_stays);
+    tcase_add_test(t, a_wrong_value_is_no_reason_to_search_again);
+    tcase_add_test(t, a_pair_both_searches_missed_in_a_wide_gap_is_caught_by_the_sweep);
     tcase_add_test(t, unstable_from_the_start_is_remarked);
     tcase_add_test(t, other_numbers_at_the_start_disagree);
     tcase_add_test(t, transitions_both_searches_missed_altogether_are_caught_by_the_counts);
