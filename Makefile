@@ -11,7 +11,7 @@ JOBS     ?= $(shell nproc 2>/dev/null || echo 1)
 
 PKGS      = gsl lapacke inih jansson mpfr gmp
 DEBS      = gcc libc6-dev make pkg-config libgsl-dev liblapacke-dev libmpfr-dev libmpc-dev libgmp-dev \
-            libinih-dev libjansson-dev check
+            libinih-dev libjansson-dev check gnuplot-nox
 
 STD       = -std=c17 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE
 HAVE     := $(shell pkg-config --exists $(PKGS) 2>/dev/null && echo yes)
@@ -42,7 +42,7 @@ $(BUILD)/%.o: %.c | have-libraries
 # Installs the Debian packages that are missing; touches nothing when all are there.
 .PHONY: deps
 deps:
-	@command -v dpkg-query >/dev/null || { echo "Not Debian: make sure there are $(PKGS), MPC and Check"; exit 0; }; \
+	@command -v dpkg-query >/dev/null || { echo "Not Debian: make sure there are $(PKGS), MPC, Check and gnuplot"; exit 0; }; \
 	missing=; \
 	for p in $(DEBS); do \
 	    dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; \
@@ -61,6 +61,12 @@ deps:
 run: deps
 	@$(SUBMAKE) programs
 	$(BUILD)/critvel-compare data/paper.ini
+
+# The figures of the paper, into $(BUILD)/figures
+.PHONY: figures
+figures: deps
+	@$(SUBMAKE) programs
+	$(BUILD)/critvel-compare figures data/paper.ini -o $(BUILD)/figures
 
 .PHONY: install
 install: programs
@@ -82,6 +88,7 @@ help:
 	@echo "make                 the programs, in $(BUILD)/"
 	@echo "make deps            install the Debian packages that are missing"
 	@echo "make run             deps, programs, and the comparison of the paper's cases"
+	@echo "make figures         deps, programs, and the figures of the paper in $(BUILD)/figures"
 	@echo "make check           deps, programs, and all tests"
 	@echo "make check-sanitize  the same with AddressSanitizer and UBSan, in $(BUILD)/sanitize"
 	@echo "make check-valgrind  the tests of common/ under valgrind"

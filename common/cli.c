@@ -8,7 +8,7 @@
 
 #include "common/casefile.h"
 
-enum { MAX_OPTIONS = 32, SHOWN = 60 };
+enum { MAX_OPTIONS = 32, SHOWN = 60, LONG_OPTION = 256 };
 
 cv_status cv_set_text(void *to, const char *text, cv_message *why)
 {
@@ -54,31 +54,46 @@ cv_status cv_set_flag(void *to, const char *text, cv_message *why)
     return CV_OK;
 }
 
-/* The table for getopt_long: the program's options, then --help and --version; returns how many the program
- * has. Rows are told apart by their index, so that val only has to differ from getopt_long's own answers. */
-static int long_options(struct option *table, const cv_program *program)
+/* The tables for getopt_long: the program's options, then --help and --version, and ":x:" for those of one
+ * letter, which take a value; returns how many the program has. Long ones are told apart by their index, so
+ * that val only has to differ from letters and getopt_long's own answers. */
+static int fill_tables(struct option *table, char *letters, const cv_program *program)
 {
-    enum { FOUND = 256 };
     int n = 0;
-    for (; n < MAX_OPTIONS && program->options[n].name != NULL; ++n)
-        table[n] =
-            (struct option){program->options[n].name,
-                            program->options[n].is_flag ? no_argument : required_argument, NULL, FOUND};
-    table[n] = (struct option){"help", no_argument, NULL, FOUND};
-    table[n + 1] = (struct option){"version", no_argument, NULL, FOUND};
+    *letters++ = ':';
+    for (; n < MAX_OPTIONS && program->options[n].name != NULL; ++n) {
+        const cv_option *o = &program->options[n];
+        table[n] = (struct option){o->name, o->is_flag ? no_argument : required_argument, NULL, LONG_OPTION};
+        if (o->name[1] == '\0') {
+            *letters++ = o->name[0];
+            *letters++ = ':';
+        }
+    }
+    *letters = '\0';
+    table[n] = (struct option){"help", no_argument, NULL, LONG_OPTION};
+    table[n + 1] = (struct option){"version", no_argument, NULL, LONG_OPTION};
     table[n + 2] = (struct option){NULL, 0, NULL, 0};
     return n;
 }
 
+static int index_of_letter(const cv_program *program, int letter)
+{
+    int i = 0;
+    while (program->options[i].name[0] != letter || program->options[i].name[1] != '\0')
+        ++i;
+    return i;
+}
+
 static cv_status apply(void *options, const cv_option *option, const char *text, int *seen, cv_message *why)
 {
+    const char *const dashes = option->name[1] == '\0' ? "-" : "--";
     cv_message reason = {""};
     if (*seen)
-        return cv_fail(why, CV_BAD_INPUT, "option --%s given twice", option->name);
+        return cv_fail(why, CV_BAD_INPUT, "option %s%s given twice", dashes, option->name);
     *seen = 1;
     const cv_status status = option->set((char *)options + option->offset, text, &reason);
     if (status != CV_OK)
-        return cv_fail(why, status, "--%s: %s", option->name, reason.text);
+        return cv_fail(why, status, "%s%s: %s", dashes, option->name, reason.text);
     return CV_OK;
 }
 
@@ -86,14 +101,15 @@ static cv_status read_options(void *options, cv_cli_action *action, const cv_pro
                               char **argv, cv_message *why)
 {
     struct option table[MAX_OPTIONS + 3];
+    char letters[2 * MAX_OPTIONS + 2];
     int seen[MAX_OPTIONS] = {0};
-    const int count = long_options(table, program);
+    const int count = fill_tables(table, letters, program);
     opterr = 0; /* messages are ours */
     optind = 0; /* glibc: start afresh */
     *action = CV_CLI_WORK;
     for (;;) {
         int index = 0;
-        const int c = getopt_long(argc, argv, ":", table, &index);
+        const int c = getopt_long(argc, argv, letters, table, &index);
         if (c == -1)
             return CV_OK;
         if (c == ':')
@@ -101,6 +117,8 @@ static cv_status read_options(void *options, cv_cli_action *action, const cv_pro
         if (c == '?')
             return cv_fail(why, CV_BAD_INPUT, "unknown or ambiguous option '%.*s'; see --help", SHOWN,
                            argv[optind - 1]);
+        if (c != LONG_OPTION)
+            index = index_of_letter(program, c);
         if (index >= count) {
             *action = index == count ? CV_CLI_HELP : CV_CLI_VERSION;
             return CV_OK;

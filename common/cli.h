@@ -16,7 +16,7 @@
 typedef cv_status cv_setter(void *to, const char *text, cv_message *why);
 
 typedef struct {
-    const char *name; /* without the dashes; NULL ends a table */
+    const char *name; /* without the dashes; NULL ends a table; one letter: "-o", which takes a value */
     cv_setter *set;
     size_t offset; /* of the target inside the program's options structure */
     int is_flag;   /* 1: the option takes no value and set is called with NULL */

@@ -1,16 +1,18 @@
 /* critvel-compare: command line, warnings, progress; the work is in run.h and report.h. */
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "common/output.h"
 #include "common/selection.h"
 #include "compare/efficiency.h"
+#include "compare/figures.h"
+#include "compare/progress.h"
 #include "compare/report.h"
 
 static const char HELP[] =
     "usage: critvel-compare [options] FILE\n"
     "       critvel-compare efficiency [options] FILE\n"
+    "       critvel-compare figures [options] FILE -o DIR\n"
     "\n"
     "Finds the velocities at which a mass moving on an infinite beam on three viscoelastic layers gains or "
     "loses\n"
@@ -23,6 +25,8 @@ static const char HELP[] =
     "efficiency: what each method spent on its search, per case and damping level: evaluations, how many of "
     "them above\n"
     "double precision, the largest precision, and processor time.\n"
+    "\n"
+    "figures: the figures of the paper through gnuplot; see critvel-compare figures --help\n"
     "\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
     "  --damping X       eta_p = eta_b = eta_f = X instead of the levels of the file\n"
@@ -44,47 +48,20 @@ typedef struct {
     int transitions;
 } options;
 
-static cv_status set_threads(void *to, const char *text, cv_message *why)
-{
-    char *end;
-    const long n = strtol(text, &end, 10);
-    if (text[0] < '0' || text[0] > '9' || *end != '\0' || n < 1 || n > 1024)
-        return cv_fail(why, CV_BAD_INPUT, "\"%.60s\" is not a number of threads (1 to 1024)", text);
-    *(size_t *)to = (size_t)n;
-    return CV_OK;
-}
-
 static const cv_option OPTIONS[] = {
     CV_OPTION_CASE(offsetof(options, selection)),
     CV_OPTION_DAMPING(offsetof(options, selection)),
     CV_OPTION_FORMAT(offsetof(options, selection)),
     {"output", cv_set_text, offsetof(options, output), 0},
-    {"threads", set_threads, offsetof(options, threads), 0},
+    {"threads", cmp_set_threads, offsetof(options, threads), 0},
     {"transitions", cv_set_flag, offsetof(options, transitions), 1},
     {NULL, NULL, 0, 0},
 };
 
-/* What the listener prints to. */
-typedef struct {
-    FILE *log;
-    const char *doing;
-    int shown;
-} progress;
-
-static void show_progress(void *context, size_t done, size_t total, double seconds)
-{
-    progress *p = context;
-    if (seconds < 2.0)
-        return;
-    fprintf(p->log, "\r%s: %zu of %zu, %.0f s", p->doing, done, total, seconds);
-    fflush(p->log);
-    p->shown = 1;
-}
-
 static cv_status do_phases(cmp_run *run, size_t threads, int with_checks, FILE *log, cv_message *why)
 {
-    progress p = {log, "transitions", 0};
-    const cmp_listener listener = {isatty(fileno(log)) ? show_progress : NULL, &p};
+    cmp_progress_line p = {log, "transitions", 0};
+    const cmp_listener listener = cmp_progress_listener(&p);
     cv_status status = cmp_run_find(run, threads, &listener, why);
     p.doing = "checks     ";
     if (status == CV_OK && with_checks)
@@ -189,6 +166,8 @@ static cv_status work(const void *typed, const cv_arguments *arguments, FILE *ou
 int main(int argc, char **argv)
 {
     static const char *const commands[] = {"efficiency", NULL};
+    if (argc > 1 && strcmp(argv[1], "figures") == 0)
+        return cmp_figures_main(argc, argv);
     const int commanded = argc > 1 && strcmp(argv[1], commands[0]) == 0;
     const cv_program program = {"critvel-compare", HELP, commanded ? commands : NULL, OPTIONS, work};
     options o = {.output = NULL, .threads = 0, .transitions = 0};

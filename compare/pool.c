@@ -124,3 +124,13 @@ cv_status cmp_pool_run(size_t threads, size_t count, cmp_job *job, void *context
         status = cv_fail(why, p.status, "%s", p.why.text);
     return status;
 }
+
+cv_status cmp_set_threads(void *to, const char *text, cv_message *why)
+{
+    char *end;
+    const long n = strtol(text, &end, 10);
+    if (text[0] < '0' || text[0] > '9' || *end != '\0' || n < 1 || n > 1024)
+        return cv_fail(why, CV_BAD_INPUT, "\"%.60s\" is not a number of threads (1 to 1024)", text);
+    *(size_t *)to = (size_t)n;
+    return CV_OK;
+}

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "common/status.h"
+#include "common/cli.h"
 
 /* Does job number "index"; writes only to what belongs to that index. */
 typedef cv_status cmp_job(void *context, size_t index, cv_message *why);
@@ -16,6 +16,9 @@ typedef struct {
     cmp_progress *tell; /* NULL: nobody wants to know */
     void *context;
 } cmp_listener;
+
+/* --threads: size_t, 1 to 1024 */
+cv_setter cmp_set_threads;
 
 /* Number of processors online, at least 1. */
 size_t cmp_processors(void);

@@ -14,14 +14,20 @@
 typedef struct {
     cv_selection selection;
     int flag;
+    const char *letter;
 } options;
 
 static const char *const commands[] = {"first", "second", NULL};
 
-static const cv_option table[] = {CV_OPTION_CASE(0),       CV_OPTION_DIGITS(0),
-                                  CV_OPTION_FORMAT(0),     CV_OPTION_DAMPING(0),
-                                  CV_OPTION_ALPHA(0),      CV_OPTION_FREQUENCY(0),
-                                  CV_OPTION_MASS_RATIO(0), {"flag", cv_set_flag, offsetof(options, flag), 1},
+static const cv_option table[] = {CV_OPTION_CASE(0),
+                                  CV_OPTION_DIGITS(0),
+                                  CV_OPTION_FORMAT(0),
+                                  CV_OPTION_DAMPING(0),
+                                  CV_OPTION_ALPHA(0),
+                                  CV_OPTION_FREQUENCY(0),
+                                  CV_OPTION_MASS_RATIO(0),
+                                  {"flag", cv_set_flag, offsetof(options, flag), 1},
+                                  {"o", cv_set_text, offsetof(options, letter), 0},
                                   {NULL, NULL, 0, 0}};
 
 /* What the work of the test program does is named by FILE. */
@@ -93,6 +99,21 @@ START_TEST(everything_given)
 }
 END_TEST
 
+START_TEST(option_of_one_letter)
+{
+    static const char *const lines[] = {"first -o DIR FILE --flag", "first FILE -oDIR --flag"};
+    for (int i = 0; i < 2; i++) {
+        outcome r;
+        read_line(&r, lines[i]);
+        ck_assert_msg(r.status == CV_OK, "%s", r.why.text);
+        ck_assert_str_eq(r.o.letter, "DIR");
+        ck_assert_str_eq(r.arguments.path, "FILE");
+        ck_assert_int_eq(r.o.flag, 1);
+        cv_selection_clear(&r.o.selection);
+    }
+}
+END_TEST
+
 START_TEST(nothing_given)
 {
     outcome r;
@@ -131,6 +152,8 @@ static const char *const wrong[][2] = {
     {"first FILE --flag=1", "unknown or ambiguous option '--flag=1'; see --help"},
     {"first FILE --case", "option '--case' needs a value"},
     {"first FILE --case a --case b", "option --case given twice"},
+    {"first FILE -o", "option '-o' needs a value"},
+    {"first FILE -o a -ob", "option -o given twice"},
     {"first FILE --digits 0", "--digits: '0' is not a whole number from 1 to 1000"},
     {"first FILE --digits 1e2", "--digits: '1e2' is not a whole number from 1 to 1000"},
     {"first FILE --digits=-5", "--digits: '-5' is not a whole number from 1 to 1000"},
@@ -337,6 +360,7 @@ int main(void)
     TCase *c = tcase_create("cli");
     tcase_add_test(c, everything_given);
     tcase_add_test(c, nothing_given);
+    tcase_add_test(c, option_of_one_letter);
     tcase_add_test(c, help_and_version_need_nothing);
     tcase_add_loop_test(c, wrong_command_lines, 0, (int)(sizeof wrong / sizeof wrong[0]));
     tcase_add_test(c, selection_of_a_point);

@@ -1,0 +1,25 @@
+/* The pictures of critvel-compare figures: one function for each kind. */
+#ifndef CRITVEL_COMPARE_FIGURE_H
+#define CRITVEL_COMPARE_FIGURE_H
+
+#include "common/selection.h"
+#include "compare/picture.h"
+
+/* One picture to be drawn. */
+typedef struct {
+    const cv_casefile *file;
+    const cv_case *of;       /* the case inside file */
+    const char *slug;        /* its name as part of a file name */
+    const cv_selection *set; /* --damping, --alpha, --mass-ratio */
+} cmp_figure;
+
+/* Writes data, script and "shows" of a picture that is open. CV_UNDECIDED: there is no such picture of this
+ * case, or it could not be computed; why says so. */
+typedef cv_status cmp_figure_draw(cmp_picture *p, const cmp_figure *f, cv_message *why);
+
+cmp_figure_draw cmp_draw_deflection; /* figures 6 and 7 */
+
+/* "case 3" or "track Zhai", into a buffer of CMP_PICTURE_SHOWS. */
+const char *cmp_figure_case(char *out, const cmp_figure *f);
+
+#endif

@@ -1,0 +1,146 @@
+#!/bin/sh
+# critvel-compare figures: the files are there, whole, the same to the byte every time; their numbers hold what the
+# paper prints and what can be known without the program; wrong inputs.
+set -u
+build=${CRITVEL_BUILD:-build}
+case $build in /*) ;; *) build=$(pwd)/$build ;; esac
+compare=$build/critvel-compare
+paper=$(pwd)/data/paper.ini
+folder=$(mktemp -d) || exit 1
+trap 'chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
+search=$PATH
+failures=0
+checks=0
+
+# verify DESCRIPTION COMMAND...: the command must succeed
+verify() {
+    checks=$((checks + 1))
+    description=$1
+    shift
+    "$@" >"$folder/verify" 2>&1 && return
+    failures=$((failures + 1))
+    echo "FAILED: $description"
+    head -5 "$folder/verify"
+}
+
+# exits STATUS DESCRIPTION ARGUMENTS...: runs critvel-compare figures, output in $folder/out and $folder/err
+exits() {
+    wanted=$1
+    description=$2
+    shift 2
+    PATH=$search "$compare" figures "$@" >"$folder/out" 2>"$folder/err"
+    status=$?
+    verify "$description: exit status $status, not $wanted: $(head -c 200 "$folder/err")" test "$status" -eq "$wanted"
+}
+
+# refuses STATUS PATTERN DESCRIPTION ARGUMENTS...: one line on standard error, none on standard output
+refuses() {
+    wanted=$1
+    pattern=$2
+    description=$3
+    shift 3
+    exits "$wanted" "$description" "$@"
+    verify "$description: one line" test "$(wc -l <"$folder/err")" -eq 1
+    verify "$description: says \"$pattern\"" grep -q -e "$pattern" "$folder/err"
+    verify "$description: no answer" test ! -s "$folder/out"
+}
+
+is_svg() { head -5 "$1" | grep -q '<svg ' && tail -2 "$1" | grep -q '</svg>'; }
+is_pdf() { head -c 5 "$1" | grep -q '%PDF-' && tail -c 7 "$1" | grep -q '%%EOF'; }
+
+# the lines of block NAME in a data file
+block() { awk -v name="# $2" '/^# alpha/ { next } /^#/ { on = $0 == name; next } on' "$1"; }
+
+# close A B RELATIVE
+close() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; if (b < 0) b = -b; exit !(d <= r * b) }'; }
+
+# peaks COLUMN SIGN FILE: local maxima of SIGN * column along the curve, rounded as the paper prints them
+peaks() {
+    block "$3" curves | awk -v c="$1" -v s="$2" '
+        NF < 4 { n = 0; next }
+        { x = y; a = b; y = z; b = e; z = s * $c; e = $1; n++ }
+        n >= 3 && y > x && y >= z { printf "%.3f\n", b }'
+}
+
+first=$folder/a/new/folder
+exits 0 "figures 6 and 7" "$paper" -o "$first" --only 6,7
+verify "nothing on standard error" test ! -s "$folder/err"
+verify "every picture is listed" test "$(grep -c '^deflection-[1-4] ' "$folder/out")" -eq 4
+for case in 1 2 3 4; do
+    verify "deflection-$case.svg is SVG" is_svg "$first/deflection-$case.svg"
+    verify "deflection-$case.pdf is PDF" is_pdf "$first/deflection-$case.pdf"
+done
+verify "four files for each picture, no other" test "$(ls -A "$first" | wc -l)" -eq 16
+exits 0 "figures 6 and 7 again" "$paper" -o "$folder/again" --case 4 --only deflection --threads 1
+for file in "$folder"/again/*; do
+    verify "the same bytes: $file" cmp "$file" "$first/${file##*/}"
+done
+verify "no date in the PDF" sh -c "! grep -q -a CreationDate '$first/deflection-3.pdf'"
+
+exits 0 "one case, one format" "$paper" -o "$folder/one" --only 6 --case 3 --format pdf
+verify "only that" test "$(ls "$folder/one" | tr '\n' ' ')" = "deflection-3.dat deflection-3.gp deflection-3.pdf "
+(cd "$folder/one" && gnuplot deflection-3.gp)
+verify "gnuplot alone draws the same SVG beside the script" cmp "$folder/one/deflection-3.svg" "$first/deflection-3.svg"
+
+# Section 5: case 4 has local extremes of max at 0.304 and 0.329, of min at 0.329, at the active point at 0.293.
+for wanted in "2 1 0.304" "2 1 0.329" "3 -1 0.329" "4 1 0.293"; do
+    set -- $wanted
+    verify "case 4, column $1: extreme at $3" sh -c "echo '$(peaks "$1" "$2" "$first/deflection-4.dat")' | grep -q '^$3'"
+done
+verify "case 3: extreme of max at 0.404" sh -c "echo '$(peaks 2 1 "$first/deflection-3.dat")' | grep -q '^0.404'"
+verify "case 4: resonances 0.437, 0.456 true, 0.442 false" test "$(block "$first/deflection-4.dat" true |
+    awk 'NF == 1 { printf "%.3f ", $1 }')$(block "$first/deflection-4.dat" false | awk 'NF == 1 { printf "%.3f", $1 }')" = \
+    "0.437 0.456 0.442"
+verify "case 1: four resonances in the file's range and one beyond" test "$(cat "$first/deflection-1.dat" |
+    awk 'NF == 1 && $1 > 0' | wc -l)" -eq 5
+
+# At rest, springs in series: w = (1 / kappa_p + 1 / kappa_b + 1)^(3/4). At alpha = 0.02 a little more.
+while read -r case springs; do
+    verify "case $case: static deflection" close "$(block "$first/deflection-$case.dat" curves | awk 'NF == 4 { print $4; exit }')" \
+        "$(awk -v s="$springs" 'BEGIN { print s ^ 0.75 }')" 0.01
+done <<'END'
+1 1.14619
+2 1.17619
+3 34.66667
+4 44.33333
+END
+# Above the last true resonance of case 3 the wave has left the active point: "the sudden jump to zero deflection".
+verify "case 3: nothing at the active point above 0.7501" sh -c "block() { :; }; awk 'NF == 4 && \$1 > 0.7501 { n++; if (\$4 > 1e-6 || \$4 < -1e-6) exit 1 } END { exit !(n > 100) }' '$first/deflection-3.dat'"
+
+# Names of cases become names of files.
+awk '/^\[case 3\]/ { print "[case ../$(touch x) '"'"'_^{}\\]"; next } /^\[case 4\]/ { print "[case ..-$-touch-x- _^{}\\]"; next } { print }' \
+    "$paper" >"$folder/names.ini"
+exits 0 "names that are not file names" "$folder/names.ini" -o "$folder/names dir's" --only 6 --format svg
+verify "all four are there" test "$(ls "$folder/names dir's"/*.svg | wc -l)" -eq 4
+verify "nothing ran" test ! -e x -a ! -e "$folder/x"
+
+refuses 2 'missing option -o' "no folder" "$paper"
+refuses 2 'needs a value' "-o without a value" "$paper" -o
+refuses 2 'there is no figure "8"' "no such figure" "$paper" -o "$folder/no" --only 6,8
+refuses 2 'neither svg nor pdf' "no such format" "$paper" -o "$folder/no" --format png
+refuses 2 'No such file' "no case file" "$folder/missing.ini" -o "$folder/no"
+refuses 2 'no case' "no such case" "$paper" -o "$folder/no" --case 9
+verify "nothing was made for them" test ! -e "$folder/no"
+: >"$folder/file"
+refuses 3 'Not a directory' "a file in place of the folder" "$paper" -o "$folder/file" --only 6
+refuses 3 'Not a directory' "a file as parent" "$paper" -o "$folder/file/sub" --only 6
+if [ "$(id -u)" != 0 ]; then
+    mkdir "$folder/closed" && chmod a-w "$folder/closed"
+    refuses 3 'Permission denied' "a folder that is closed" "$paper" -o "$folder/closed" --only 6
+fi
+mkdir -p "$folder/taken/deflection-3.svg"
+refuses 3 'deflection-3.svg' "a folder where the picture should be" "$paper" -o "$folder/taken" --only 6 --case 3
+mkdir "$folder/bin"
+search=$folder/bin
+refuses 3 'Debian package gnuplot-nox' "no gnuplot" "$paper" -o "$folder/no" --only 6
+verify "no folder without gnuplot" test ! -e "$folder/no"
+printf '#!/bin/sh\necho "line 1: it is broken" >&2\nexit 1\n' >"$folder/bin/gnuplot"
+chmod +x "$folder/bin/gnuplot"
+search=$folder/bin:$PATH
+refuses 3 'it is broken' "a gnuplot that fails" "$paper" -o "$folder/broken" --only 6 --case 3
+verify "it leaves nothing" test -z "$(ls -A "$folder/broken")"
+printf '#!/bin/sh\nexit 0\n' >"$folder/bin/gnuplot"
+refuses 3 'gnuplot has not written' "a gnuplot that draws nothing" "$paper" -o "$folder/broken" --only 6 --case 3
+
+echo "Checks: $checks, Failures: $failures"
+[ "$failures" -eq 0 ]
