@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "dgreen/transitions_branch.h"
+#include "dgreen/velocities.h"
 
 enum { MAX_DEPTH = 70, MAX_ALIGNED = 64, NONE = -1 };
 /* Costs of the alignment: a crossing without a partner, and the weight of a difference of position */
@@ -86,8 +87,8 @@ static int unpaired_matter(const dg_curve *c, const int *partner, double x)
     return n > 0 && x > least - margin && x < most + margin;
 }
 
-/* Whether a dip of one curve could reach zero within "distance" in alpha, by its slope with room for curvature,
- * at an x that matters. */
+/* Whether a dip of one curve could reach zero within "distance" in alpha, by its slope with room for
+ * curvature, at an x that matters. */
 static int dip_matters(const dg_sweep *s, const dg_curve *c, double distance)
 {
     for (size_t i = 0; i < c->dip_count; i++) {
@@ -140,29 +141,12 @@ static int unexplained(dg_sweep *s, const dg_curve *left, const dg_curve *right,
     return any;
 }
 
-/* Logarithmic middle as seen from the nearest special velocity */
-static double middle_velocity(const dg_sweep *s, double low, double high)
-{
-    size_t n;
-    const dg_special_velocity *special = dg_special_velocities(&n, s->probe.branches);
-    double below = 0, above = INFINITY;
-    for (size_t i = 0; i < n; i++) {
-        if (special[i].alpha <= low)
-            below = fmax(below, special[i].alpha);
-        if (special[i].alpha >= high)
-            above = fmin(above, special[i].alpha);
-    }
-    double middle = low - below <= above - high ? below + sqrt((low - below) * (high - below))
-                                                : above - sqrt((above - low) * (above - high));
-    return middle > low && middle < high ? middle : low + (high - low) / 2;
-}
-
 static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth);
 
 static cv_status cut(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth)
 {
     dg_curve middle = {0};
-    const double alpha = middle_velocity(s, left->at.alpha, right->at.alpha);
+    const double alpha = dg_velocities_middle(s->probe.branches, left->at.alpha, right->at.alpha);
     cv_status status = dg_curve_at(&middle, &s->probe, alpha, s->x_floor, s->why);
     if (status == CV_OK)
         status = search(s, left, &middle, depth - 1);

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Steps of at most this part of alpha and of the range, and this many per decade of the distance from a special
- * velocity, down to this part of its width. */
+/* Steps of at most this part of alpha and of the range, and this many per decade of the distance from a
+ * special velocity, down to this part of its width. */
 static const double RELATIVE_STEP = 0.015, RANGE_STEP = 0.005, FIRST = 0.3;
 enum { PER_DECADE = 2 };
 
@@ -63,4 +63,20 @@ cv_status dg_velocities_choose(dg_velocities *v, const dg_branch_curves *branche
             v->at[kept++] = v->at[i];
     v->count = kept;
     return status;
+}
+
+double dg_velocities_middle(const dg_branch_curves *branches, double low, double high)
+{
+    size_t n;
+    const dg_special_velocity *special = dg_special_velocities(&n, branches);
+    double below = 0, above = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        if (special[i].alpha <= low)
+            below = fmax(below, special[i].alpha);
+        if (special[i].alpha >= high)
+            above = fmin(above, special[i].alpha);
+    }
+    double middle = low - below <= above - high ? below + sqrt((low - below) * (high - below))
+                                                : above - sqrt((above - low) * (above - high));
+    return middle > low && middle < high ? middle : low + (high - low) / 2;
 }

@@ -15,4 +15,7 @@ typedef struct {
 cv_status dg_velocities_choose(dg_velocities *v, const dg_branch_curves *branches, double alpha_min,
                                double alpha_max, cv_message *why);
 
+/* Between low and high, half way in the logarithm of the distance to the nearest special velocity. */
+double dg_velocities_middle(const dg_branch_curves *branches, double low, double high);
+
 #endif

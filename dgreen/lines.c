@@ -1,0 +1,103 @@
+#include "dgreen/lines.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dgreen/lines_graph.h"
+#include "dgreen/velocities.h"
+
+/* The curves are listed down to this part of the smallest 1/eta_M. */
+static const double FLOOR = 0.3;
+
+void dg_lines_clear(dg_lines *l)
+{
+    for (size_t i = 0; i < l->count; i++)
+        free(l->lines[i].vertices);
+    free(l->lines);
+    free(l->doubts);
+    memset(l, 0, sizeof *l);
+}
+
+/* All columns, each linked to the last one */
+static cv_status walk(dg_line_graph *g, const dg_velocities *v, dg_line_column *columns)
+{
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < v->count && status == CV_OK; i++) {
+        dg_line_column *here = &columns[i % 2];
+        status = dg_line_column_at(here, g, v->at[i]);
+        for (size_t k = 0; k < here->curve.crossing_count && status == CV_OK; k++) {
+            if (i == 0)
+                g->nodes[here->first + (int)k].exit[DG_LINE_LOWER] = DG_LINE_ALPHA_MIN;
+            if (i + 1 == v->count)
+                g->nodes[here->first + (int)k].exit[DG_LINE_HIGHER] = DG_LINE_ALPHA_MAX;
+        }
+        if (i > 0 && status == CV_OK)
+            status = dg_line_cell(g, &columns[(i + 1) % 2], here);
+    }
+    return status;
+}
+
+static cv_status search(dg_line_graph *g)
+{
+    dg_velocities v = {0};
+    dg_line_column columns[2];
+    memset(columns, 0, sizeof columns);
+    cv_status status = dg_velocities_choose(&v, g->probe.branches, g->alpha_min, g->alpha_max, g->why);
+    if (status == CV_OK)
+        status = walk(g, &v, columns);
+    if (status == CV_OK)
+        status = dg_line_collect(g);
+    dg_curve_clear(&columns[0].curve);
+    dg_curve_clear(&columns[1].curve);
+    dg_station_clear(&g->station);
+    free(g->nodes);
+    free(v.at);
+    return status;
+}
+
+static cv_status prepare_and_search(dg_line_graph *g, const cv_params *params)
+{
+    dg_track *track = NULL;
+    dg_follow *follow = NULL;
+    dg_branch_curves *branches = NULL;
+    cv_status status = dg_track_new(&track, params, g->why);
+    if (status == CV_OK)
+        status = dg_follow_new(&follow, g->why);
+    if (status == CV_OK)
+        status = dg_branch_curves_new(&branches, track, g->alpha_min, g->alpha_max, g->why);
+    g->probe = (dg_probe){track, follow, branches};
+    if (status == CV_OK)
+        status = search(g);
+    dg_branch_curves_free(branches);
+    dg_follow_free(follow);
+    dg_track_free(track);
+    return status;
+}
+
+cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min, double alpha_max,
+                        double mass_min, double mass_max, cv_message *why)
+{
+    memset(out, 0, sizeof *out);
+    if (cv_params_undamped(params))
+        return cv_fail(why, CV_BAD_INPUT, "instability lines need damping: all damping ratios are zero");
+    if (!(alpha_min > 0 && alpha_max > alpha_min && mass_min > 0 && mass_max > mass_min))
+        return cv_fail(why, CV_BAD_INPUT, "instability lines need ranges 0 < first < last");
+    out->alpha_min = alpha_min;
+    out->alpha_max = alpha_max;
+    out->mass_min = mass_min;
+    out->mass_max = mass_max;
+    dg_line_graph g = {.alpha_min = alpha_min,
+                       .alpha_max = alpha_max,
+                       .x_min = 1 / mass_max,
+                       .x_max = 1 / mass_min,
+                       .x_floor = FLOOR / mass_max,
+                       .scale_alpha = alpha_max - alpha_min,
+                       .scale_log = log(mass_max / mass_min),
+                       .lines = out,
+                       .why = why};
+    const cv_status status = prepare_and_search(&g, params);
+    if (status != CV_OK)
+        dg_lines_clear(out);
+    return status;
+}

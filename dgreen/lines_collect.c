@@ -1,0 +1,183 @@
+/* Linked crossings become lines: in order, directed, cut at the ends of the range of eta_M. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "dgreen/lines_shape.h"
+
+typedef struct {
+    dg_line_graph *g;
+    char *seen;   /* per node */
+    size_t count; /* of the line that is being collected */
+    int *order;   /* its nodes */
+    int closed;
+    int first_side, last_side; /* the sides where an open line ends */
+} collector;
+
+/* Follows the links from node "start", which is left through "side". */
+static void trace(collector *c, int start, int side)
+{
+    int n = start;
+    c->count = 0;
+    c->closed = 0;
+    c->first_side = 1 - side;
+    for (;;) {
+        const dg_line_node *node = &c->g->nodes[n];
+        c->order[c->count++] = n;
+        c->seen[n] = 1;
+        c->last_side = side;
+        const int next = node->link[side];
+        if (next == DG_LINE_NONE)
+            return;
+        side = 1 - node->back[side];
+        n = next;
+        if (n == start) {
+            c->closed = 1;
+            c->order[c->count++] = n;
+            return;
+        }
+    }
+}
+
+/* Two more roots are unstable on the left: where Im zeta falls through the axis as q grows, alpha must grow
+ * along the line, elsewhere fall. 0: neither direction does that everywhere. */
+static int directed(collector *c, int *reverse)
+{
+    int agree = 0, differ = 0;
+    for (size_t i = 0; i + 1 < c->count; i++) {
+        const dg_line_node *a = &c->g->nodes[c->order[i]], *b = &c->g->nodes[c->order[i + 1]];
+        const dg_line_node *plain = a->turns ? b : a;
+        const int grows = b->is.alpha > a->is.alpha;
+        *(grows == (plain->is.at.direction > 0) ? &agree : &differ) += 1;
+    }
+    *reverse = differ > agree;
+    return agree == 0 || differ == 0;
+}
+
+static void reverse_order(collector *c)
+{
+    for (size_t i = 0, k = c->count - 1; i < k; i++, k--) {
+        const int kept = c->order[i];
+        c->order[i] = c->order[k];
+        c->order[k] = kept;
+    }
+    const int kept = c->first_side;
+    c->first_side = c->last_side;
+    c->last_side = kept;
+}
+
+static int beyond(const dg_line_graph *g, const dg_line_node *n)
+{
+    return n->is.at.x < g->x_min ? -1 : n->is.at.x > g->x_max;
+}
+
+/* A closed line that leaves the range begins outside, so that it is cut like an open one. */
+static void begin_outside(collector *c)
+{
+    size_t first = 0;
+    while (first < c->count && !beyond(c->g, &c->g->nodes[c->order[first]]))
+        first++;
+    if (first == c->count)
+        return;
+    c->closed = 0;
+    c->count--; /* the repeated node */
+    int *rotated = malloc((c->count + 1) * sizeof *rotated);
+    if (rotated == NULL)
+        return;
+    for (size_t i = 0; i <= c->count; i++)
+        rotated[i] = c->order[(first + i) % c->count];
+    memcpy(c->order, rotated, (c->count + 1) * sizeof *rotated);
+    c->count++;
+    free(rotated);
+}
+
+/* The end of a piece between nodes a (inside) and b */
+static cv_status push_boundary(dg_line_graph *g, dg_line_piece *p, dg_line_exit *exit, const dg_line_node *a,
+                               const dg_line_node *b)
+{
+    const int low = beyond(g, b) < 0;
+    dg_line_node point;
+    *exit = low ? DG_LINE_TOP : DG_LINE_BOTTOM;
+    const cv_status status = dg_line_boundary(&point, g, a, b, low ? g->x_min : g->x_max);
+    return status == CV_OK ? dg_line_piece_push(p, &point, g->why) : status;
+}
+
+/* Cuts the line in c->order into pieces inside the range. */
+static cv_status cut(collector *c)
+{
+    dg_line_graph *g = c->g;
+    dg_line_piece p = {0};
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < c->count && status == CV_OK; i++) {
+        const dg_line_node here = g->nodes[c->order[i]];
+        if (beyond(g, &here))
+            continue;
+        if (p.count == 0 && i > 0)
+            status = push_boundary(g, &p, &p.exits[0], &here, &g->nodes[c->order[i - 1]]);
+        else if (p.count == 0)
+            p.exits[0] = c->closed ? DG_LINE_CLOSED : here.exit[c->first_side];
+        if (status == CV_OK)
+            status = dg_line_piece_push(&p, &here, g->why);
+        const int last = i + 1 == c->count;
+        if (last)
+            p.exits[1] = c->closed ? DG_LINE_CLOSED : here.exit[c->last_side];
+        else if (status == CV_OK && beyond(g, &g->nodes[c->order[i + 1]]))
+            status = push_boundary(g, &p, &p.exits[1], &here, &g->nodes[c->order[i + 1]]);
+        else
+            continue;
+        if (status == CV_OK)
+            status = dg_line_finish(g, &p);
+        p.count = 0;
+    }
+    free(p.points);
+    return status;
+}
+
+static cv_status collect_one(collector *c)
+{
+    int reverse;
+    const int consistent = directed(c, &reverse);
+    const double first = c->g->nodes[c->order[0]].is.alpha,
+                 last = c->g->nodes[c->order[c->count - 1]].is.alpha;
+    if (reverse)
+        reverse_order(c);
+    if (c->closed)
+        begin_outside(c);
+    const cv_status status = cut(c);
+    if (status == CV_OK && !consistent)
+        return dg_line_doubt_add(c->g, first < last ? first : last, first < last ? last : first,
+                                 "a line without a direction");
+    return status;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const dg_line *x = a, *y = b;
+    double low[2] = {x->vertices[0].alpha, y->vertices[0].alpha};
+    for (size_t i = 0; i < x->count; i++)
+        low[0] = x->vertices[i].alpha < low[0] ? x->vertices[i].alpha : low[0];
+    for (size_t i = 0; i < y->count; i++)
+        low[1] = y->vertices[i].alpha < low[1] ? y->vertices[i].alpha : low[1];
+    return (low[0] > low[1]) - (low[0] < low[1]);
+}
+
+cv_status dg_line_collect(dg_line_graph *g)
+{
+    const size_t n = g->node_count;
+    collector c = {.g = g, .seen = calloc(n + 1, 1), .order = malloc((n + 2) * sizeof(int))};
+    cv_status status = c.seen && c.order ? CV_OK : cv_fail(g->why, CV_FAILED, "out of memory");
+    for (int round = 0; round < 2; round++) /* open lines first: from their ends */
+        for (size_t i = 0; i < n && status == CV_OK; i++) {
+            const dg_line_node *node = &g->nodes[i];
+            const int open_low = node->link[DG_LINE_LOWER] == DG_LINE_NONE;
+            const int open_high = node->link[DG_LINE_HIGHER] == DG_LINE_NONE;
+            if (c.seen[i] || (round == 0 && !open_low && !open_high))
+                continue;
+            trace(&c, (int)i, open_high && !open_low ? DG_LINE_LOWER : DG_LINE_HIGHER);
+            status = collect_one(&c);
+        }
+    free(c.seen);
+    free(c.order);
+    if (status == CV_OK && g->lines->count > 0)
+        qsort(g->lines->lines, g->lines->count, sizeof *g->lines->lines, ascending);
+    return status;
+}
