@@ -154,19 +154,13 @@ int sa_poles_enclose(sa_pole *out, const sa_point *m, const sa_track *t, double 
     return 0;
 }
 
-static int disjoint(sa_rect a, sa_rect b)
-{
-    return fabs(a.re - b.re) * (1 - 4 * SA_U) > (a.re_rad + b.re_rad) * SA_INFLATE ||
-           fabs(a.im - b.im) * (1 - 4 * SA_U) > (a.im_rad + b.im_rad) * SA_INFLATE;
-}
-
 int sa_poles_separate(const sa_pole *poles, int n)
 {
     for (int i = 0; i < n; i++) {
         if (!(poles[i].box.im > poles[i].box.im_rad * SA_INFLATE))
             return 0;
         for (int j = 0; j < i; j++)
-            if (!disjoint(poles[i].box, poles[j].box))
+            if (!sa_rect_disjoint(poles[i].box, poles[j].box))
                 return 0;
     }
     return 1;

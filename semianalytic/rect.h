@@ -124,6 +124,13 @@ static inline sa_rect sa_rect_div(sa_rect a, sa_rect b)
                      (top.im_rad + fabs(im) * size_rad) / least + 2 * SA_U * fabs(im)};
 }
 
+/* 1 when the rectangles have no point in common */
+static inline int sa_rect_disjoint(sa_rect a, sa_rect b)
+{
+    return fabs(a.re - b.re) * (1 - 4 * SA_U) > (a.re_rad + b.re_rad) * SA_INFLATE ||
+           fabs(a.im - b.im) * (1 - 4 * SA_U) > (a.im_rad + b.im_rad) * SA_INFLATE;
+}
+
 /* sum of the radii relative to the magnitude of the midpoint */
 static inline double sa_rect_spread(sa_rect a)
 {

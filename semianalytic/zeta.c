@@ -100,9 +100,11 @@ cv_status sa_zeta_complex(sa_value *out, sa_sweep *state, const sa_track *t, dou
 {
     if (!isfinite(alpha) || !(alpha >= 0) || !isfinite(creal(q)) || !(cimag(q) <= 0) || !isfinite(cimag(q)))
         return CV_BAD_INPUT;
-    if ((t->undamped && cimag(q) == 0) || !t->double_range || !in_double_range(alpha) ||
-        !in_double_range(creal(q)) || !in_double_range(cimag(q)))
+    if (!t->double_range || !in_double_range(alpha) || !in_double_range(creal(q)) ||
+        !in_double_range(cimag(q)))
         return CV_UNDECIDED;
+    if (t->undamped && cimag(q) == 0)
+        return sa_zeta_limit(out, state, t, alpha, creal(q));
     int n = sa_matrix_upper_count_double(t, alpha);
     sa_pole poles[SA_UPPER_MAX];
     double complex start[SA_UPPER_MAX];

@@ -52,8 +52,9 @@ typedef struct {
 
 /* Double precision, about 2 microseconds where the sweep is warm. alpha >= 0 and q are taken as exact; the
  * parameters of the track as exact numbers. q = 0 gives zeta = 0.
- * CV_UNDECIDED: double cannot separate or bound the poles here (out is then not set); always for the
- * limit q - i0 of an undamped track. CV_BAD_INPUT: alpha or q not finite, alpha < 0. */
+ * Undamped tracks: the limit q - i0.
+ * CV_UNDECIDED: double cannot separate or bound the poles here (out is then not set). CV_BAD_INPUT: alpha or q
+ * not finite, alpha < 0. */
 cv_status sa_zeta_double(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q);
 
 /* The same for complex q with Im q <= 0 (Re qbar >= 0); CV_BAD_INPUT for Im q > 0. */

@@ -6,6 +6,25 @@
 
 enum { FIRST_PRECISION = 127 };
 
+/* All poles of an undamped track next to those of the double evaluation. */
+static int find_warm_limit(sa_pole_set *set, sa_sweep *state, const sa_track *t, double alpha, double q)
+{
+    const sa_limit_poles *known = &state->limit;
+    double complex start[2 * SA_POLES_MAX];
+    sa_value ignored;
+    int n = 0;
+    if (known->count == 0 || known->alpha != alpha || known->q != q)
+        sa_zeta_double(&ignored, state, t, alpha, q);
+    if (known->count == 0 || known->alpha != alpha || known->q != q)
+        return 0;
+    for (int i = 0; i < known->count; i++) {
+        start[n++] = known->p[i];
+        if (cimag(known->p[i]) != 0)
+            start[n++] = conj(known->p[i]);
+    }
+    return sa_pole_set_find(set, start, n, 0, 1);
+}
+
 /* The upper poles next to those of the double evaluation at the rounded point, which also warms the sweep.
  * What it left undecided is a good start all the same. */
 static int find_warm(sa_pole_set *set, sa_sweep *state, const sa_track *t)
@@ -13,7 +32,7 @@ static int find_warm(sa_pole_set *set, sa_sweep *state, const sa_track *t)
     sa_value ignored;
     double alpha = mpfr_get_d(set->place.alpha.m, MPFR_RNDN), q = mpfr_get_d(set->place.q.m, MPFR_RNDN);
     if (t->undamped)
-        return 0;
+        return find_warm_limit(set, state, t, alpha, q);
     if (state->count == 0 || state->alpha != alpha || state->q != q)
         sa_zeta_double(&ignored, state, t, alpha, q);
     return state->count == set->place.upper_count && state->alpha == alpha && state->q == q &&
