@@ -13,11 +13,13 @@ typedef struct {
     const cv_selection *set; /* --damping, --alpha, --mass-ratio */
 } cmp_figure;
 
-/* Writes data, script and "shows" of a picture that is open. CV_UNDECIDED: there is no such picture of this
- * case, or it could not be computed; why says so. */
+/* Writes data, script and "shows" of a picture that is open, or sets "absent" when the case has nothing that
+ * it could show. CV_UNDECIDED: it could not be computed; why says so. */
 typedef cv_status cmp_figure_draw(cmp_picture *p, const cmp_figure *f, cv_message *why);
 
-cmp_figure_draw cmp_draw_deflection; /* figures 6 and 7 */
+cmp_figure_draw cmp_draw_curve_right; /* figure 2 */
+cmp_figure_draw cmp_draw_curve_left;  /* figure 3 */
+cmp_figure_draw cmp_draw_deflection;  /* figures 6 and 7 */
 
 /* "case 3" or "track Zhai", into a buffer of CMP_PICTURE_SHOWS. */
 const char *cmp_figure_case(char *out, const cmp_figure *f);

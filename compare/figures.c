@@ -18,11 +18,19 @@ static const char HELP[] =
     "after\n"
     "changes: gnuplot NAME.gp.\n"
     "\n"
+    "  curve-right   figure 2: D-decomposition curves, the stable part to the right; stable and unstable\n"
+    "  curve-left    figure 3: the same with the stable part to the left; curve: both\n"
     "  deflection    figures 6, 7: undamped steady deflection over the velocity of the moving force\n"
     "\n"
     "  -o DIR            the folder, made when it is missing\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
     "  --only LIST       names of the list above or numbers of the paper's figures, with commas: 6,7\n"
+    "  --damping X       curve: at eta_p = eta_b = eta_f = X (default: the first level of the file that "
+    "shows "
+    "it)\n"
+    "  --alpha X         curve: at this velocity (default: the first multiple of 0.05, or 0.01, that shows "
+    "it)\n"
+    "  --mass-ratio X    curve: for this mass (default: one to either side of the crossing)\n"
     "  --format FORMAT   svg or pdf (default: both)\n"
     "  --threads N       at most N threads (default: one for each processor)\n"
     "  --help            this text\n"
@@ -37,6 +45,8 @@ static const struct {
     const char *name, *group, *numbers;
     cmp_figure_draw *draw;
 } KINDS[] = {
+    {"curve-right", "curve", "2", cmp_draw_curve_right},
+    {"curve-left", "curve", "3", cmp_draw_curve_left},
     {"deflection", "deflection", "67", cmp_draw_deflection},
 };
 
@@ -87,6 +97,9 @@ static cv_status set_format(void *to, const char *text, cv_message *why)
 
 static const cv_option OPTIONS[] = {
     CV_OPTION_CASE(offsetof(options, selection)),
+    CV_OPTION_DAMPING(offsetof(options, selection)),
+    CV_OPTION_ALPHA(offsetof(options, selection)),
+    CV_OPTION_MASS_RATIO(offsetof(options, selection)),
     {"o", cv_set_text, offsetof(options, folder), 0},
     {"only", set_kinds, offsetof(options, kinds), 0},
     {"format", set_format, offsetof(options, formats), 0},
@@ -175,23 +188,24 @@ static cv_status do_task(void *context, size_t index, cv_message *why)
     if (status != CV_OK)
         return status;
     t->status = KINDS[t->kind].draw(&t->picture, &t->figure, &t->why);
-    if (t->status == CV_UNDECIDED)
+    if (t->status == CV_UNDECIDED || (t->status == CV_OK && t->picture.absent))
         return CV_OK;
     return t->status == CV_OK ? cmp_picture_publish(&t->picture, &p->album, why)
                               : cv_fail(why, t->status, "%s: %s", name, t->why.text);
 }
 
+/* CV_UNDECIDED: some could not be computed. */
 static cv_status list_pictures(const plan *p, FILE *out)
 {
     cv_status status = CV_OK;
     char of[CMP_PICTURE_SHOWS];
     for (size_t i = 0; i < p->count; i++) {
         const task *t = &p->tasks[i];
-        if (t->status == CV_OK)
+        if (t->status == CV_OK && !t->picture.absent)
             fprintf(out, "%-20s %s\n", t->picture.name, t->picture.shows);
         else
             fprintf(out, "%-20s not drawn, %s: %s\n", t->picture.name, cmp_figure_case(of, &t->figure),
-                    t->why.text);
+                    t->status == CV_OK ? t->picture.shows : t->why.text);
         if (t->status != CV_OK)
             status = CV_UNDECIDED;
     }
@@ -216,13 +230,27 @@ static cv_status draw_all(const options *o, const cv_casefile *file, FILE *out, 
     return status;
 }
 
+static cv_status check(const options *o, cv_message *why)
+{
+    const cv_selection *s = &o->selection;
+    if (o->folder == NULL)
+        return cv_fail(why, CV_BAD_INPUT, "missing option -o DIR; see figures --help");
+    if (cv_number_sign(&s->damping.value) < 0)
+        return cv_fail(why, CV_BAD_INPUT, "--damping must not be negative");
+    if (s->alpha.given && cv_number_sign(&s->alpha.value) <= 0)
+        return cv_fail(why, CV_BAD_INPUT, "--alpha must be positive");
+    if (s->mass_ratio.given && cv_number_sign(&s->mass_ratio.value) <= 0)
+        return cv_fail(why, CV_BAD_INPUT, "--mass-ratio must be positive");
+    return CV_OK;
+}
+
 static cv_status work(const void *typed, const cv_arguments *arguments, FILE *out, FILE *log, cv_message *why)
 {
     const options *o = typed;
     cv_casefile file;
-    if (o->folder == NULL)
-        return cv_fail(why, CV_BAD_INPUT, "missing option -o DIR; see figures --help");
-    cv_status status = cv_casefile_read(&file, arguments->path, why);
+    cv_status status = check(o, why);
+    if (status == CV_OK)
+        status = cv_casefile_read(&file, arguments->path, why);
     if (status != CV_OK)
         return status;
     status = draw_all(o, &file, out, log, why);

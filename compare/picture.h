@@ -13,6 +13,7 @@ enum { CMP_PICTURE_NAME = 128, CMP_PICTURE_SHOWS = 256 };
 typedef struct {
     char name[CMP_PICTURE_NAME];   /* safe as a file name */
     char shows[CMP_PICTURE_SHOWS]; /* one line for people */
+    int absent;                    /* there is nothing to draw; shows says why */
     FILE *data, *script;           /* to be written by who draws */
     char *data_bytes, *script_bytes;
     size_t data_size, script_size;

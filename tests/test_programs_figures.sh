@@ -49,7 +49,7 @@ is_svg() { head -5 "$1" | grep -q '<svg ' && tail -2 "$1" | grep -q '</svg>'; }
 is_pdf() { head -c 5 "$1" | grep -q '%PDF-' && tail -c 7 "$1" | grep -q '%%EOF'; }
 
 # the lines of block NAME in a data file
-block() { awk -v name="# $2" '/^# alpha/ { next } /^#/ { on = $0 == name; next } on' "$1"; }
+block() { awk -v name="# $2" '/^# alpha|^#.*,/ { next } /^#/ { on = $0 == name; next } on' "$1"; }
 
 # close A B RELATIVE
 close() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; if (b < 0) b = -b; exit !(d <= r * b) }'; }
@@ -107,6 +107,35 @@ END
 # Above the last true resonance of case 3 the wave has left the active point: "the sudden jump to zero deflection".
 verify "case 3: nothing at the active point above 0.7501" sh -c "block() { :; }; awk 'NF == 4 && \$1 > 0.7501 { n++; if (\$4 > 1e-6 || \$4 < -1e-6) exit 1 } END { exit !(n > 100) }' '$first/deflection-3.dat'"
 
+# Figures 2 and 3. z is eta_M zeta, and zeta the other method's.
+# on_curve NAME CASE DAMPING ALPHA PANEL ETA_M: a vertex of the curve against critvel-semianalytic kernel
+on_curve() {
+    set -- "$@" $(block "$folder/curves/$1.dat" "$5 boundary" | awk 'NF == 3 && $1 > 0 { q[++n] = $0 } END { print q[int(n / 3)] }')
+    "$build/critvel-semianalytic" kernel "$paper" --case "$2" --damping "$3" --alpha "$4" --frequency "$7" --digits 12 --format json |
+        awk -v eta_M="$6" -v re="$8" -v im="$9" '
+            /"zeta"/ { on = 1 } on && /"re"/ { gsub(/[",]/, ""); a = $2 } on && /"im"/ { gsub(/[",]/, ""); b = $2; exit }
+            END { d = (eta_M * a - re) ^ 2 + (eta_M * b - im) ^ 2; exit !(d < 1e-14 * (re ^ 2 + im ^ 2) && d >= 0 && re != 0) }'
+}
+# stable NAME PANEL: z = 1 lies on a stable part of the real axis
+stable() { block "$folder/curves/$1.dat" "$2 stable" | awk 'NF == 2 { if (n++ % 2) { if (from < 1 && $1 > 1) found = 1 } from = $1 } END { exit !found }'; }
+exits 0 "figure 2" "$paper" -o "$folder/curves" --only 2 --case 1 --damping 0.05 --alpha 0.3 --format svg
+exits 0 "figure 3" "$paper" -o "$folder/curves" --only curve-left --case 3 --format svg
+verify "figure 3 of case 3 is at damping 1e-4 and alpha 0.45" grep -q 'to the left, case 3, damping 0.0001, alpha = 0.45$' "$folder/out"
+for name in curve-right-1 curve-left-3; do
+    verify "$name.svg is SVG" is_svg "$folder/curves/$name.svg"
+    verify "$name: a) is stable" stable $name a
+    verify "$name: b) is not" sh -c "! $(stable $name b && echo true || echo false)"
+done
+mass() { sed -n "s/^set title '$2).* = \([0-9.]*\): .*/\1/p" "$folder/curves/$1.gp"; }
+verify "figure 2: a vertex" on_curve curve-right-1 1 0.05 0.3 a "$(mass curve-right-1 a)"
+verify "figure 3: a vertex" on_curve curve-left-3 3 1e-4 0.45 b "$(mass curve-left-3 b)"
+verify "figure 2: the heavier mass is unstable" test "$(mass curve-right-1 a)" -lt "$(mass curve-right-1 b)"
+verify "figure 3: the lighter mass is unstable" test "$(mass curve-left-3 a)" -gt "$(mass curve-left-3 b)"
+exits 0 "a case without" "$paper" -o "$folder/curves" --only 3 --case 1 --damping 0.1 --alpha 0.3
+verify "it is said" grep -q '^curve-left-1 *not drawn, case 1: no crossing' "$folder/out"
+exits 0 "--mass-ratio" "$paper" -o "$folder/curves" --only 2 --case 1 --alpha 0.3 --mass-ratio 80 --format svg
+verify "one panel" test "$(grep -c '^plot' "$folder/curves/curve-right-1.gp")" -eq 1
+
 # Names of cases become names of files.
 awk '/^\[case 3\]/ { print "[case ../$(touch x) '"'"'_^{}\\]"; next } /^\[case 4\]/ { print "[case ..-$-touch-x- _^{}\\]"; next } { print }' \
     "$paper" >"$folder/names.ini"
@@ -117,6 +146,9 @@ verify "nothing ran" test ! -e x -a ! -e "$folder/x"
 refuses 2 'missing option -o' "no folder" "$paper"
 refuses 2 'needs a value' "-o without a value" "$paper" -o
 refuses 2 'there is no figure "8"' "no such figure" "$paper" -o "$folder/no" --only 6,8
+refuses 2 'alpha' "a negative velocity" "$paper" -o "$folder/no" --alpha -1
+refuses 2 'mass-ratio' "no mass" "$paper" -o "$folder/no" --mass-ratio 0
+refuses 2 'damping' "a negative damping" "$paper" -o "$folder/no" --damping -1
 refuses 2 'neither svg nor pdf' "no such format" "$paper" -o "$folder/no" --format png
 refuses 2 'No such file' "no case file" "$folder/missing.ini" -o "$folder/no"
 refuses 2 'no case' "no such case" "$paper" -o "$folder/no" --case 9
