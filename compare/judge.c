@@ -103,9 +103,8 @@ static void judge_list(cmp_verdict *v, const cmp_list *list, const char *name, i
     }
 }
 
-/* One coordinate of a pair: difference against bounds and digits; lowers v->digits to what it supports. */
-static void judge_coordinate(cmp_verdict *v, const char *what, const mpfr_srcptr x[CMP_METHODS],
-                             const mpfr_srcptr error[CMP_METHODS], int digits)
+void cmp_judge_coordinate(cmp_verdict *v, const char *what, const mpfr_srcptr x[CMP_METHODS],
+                          const mpfr_srcptr error[CMP_METHODS], int digits)
 {
     mpfr_t difference, bound;
     mpfr_inits2(64, difference, bound, (mpfr_ptr)0);
@@ -130,10 +129,10 @@ static void judge_coordinate(cmp_verdict *v, const char *what, const mpfr_srcptr
 static void judge_pair(cmp_verdict *v, const cmp_transition *a, const cmp_transition *b,
                        const char *const names[], int digits)
 {
-    judge_coordinate(v, "alpha", (const mpfr_srcptr[]){a->alpha, b->alpha},
-                     (const mpfr_srcptr[]){a->alpha_error, b->alpha_error}, digits);
-    judge_coordinate(v, "q", (const mpfr_srcptr[]){a->q, b->q}, (const mpfr_srcptr[]){a->q_error, b->q_error},
-                     digits);
+    cmp_judge_coordinate(v, "alpha", (const mpfr_srcptr[]){a->alpha, b->alpha},
+                         (const mpfr_srcptr[]){a->alpha_error, b->alpha_error}, digits);
+    cmp_judge_coordinate(v, "q", (const mpfr_srcptr[]){a->q, b->q},
+                         (const mpfr_srcptr[]){a->q_error, b->q_error}, digits);
     if (a->below != b->below || a->above != b->above)
         cmp_verdict_worsen(v, CMP_DISAGREE, "alpha = %.15g: unstable roots %d to %d by %s, %d to %d by %s",
                            mpfr_get_d(a->alpha, MPFR_RNDN), a->below, a->above, names[0], b->below, b->above,

@@ -51,6 +51,12 @@ void cmp_judge(cmp_verdict *v, const cmp_list *const lists[CMP_METHODS], const c
                const char *const names[CMP_METHODS], const cv_number *alpha_min, const cv_number *alpha_max,
                int digits);
 
+/* One coordinate x of a pair, with absolute bounds: CMP_DISAGREE where the two differ by more than the sum of
+ * the bounds, CMP_UNDECIDED where by more than 10^-digits relative; v->digits is lowered to what the
+ * difference and the wider bound leave. "what" names the coordinate. */
+void cmp_judge_coordinate(cmp_verdict *v, const char *what, const mpfr_srcptr x[CMP_METHODS],
+                          const mpfr_srcptr error[CMP_METHODS], int digits);
+
 /* log10 |x| for any exponent range; -infinity for 0, NaN for NaN. */
 double cmp_log10(mpfr_srcptr x);
 

@@ -4,6 +4,7 @@
 
 #include "common/output.h"
 #include "common/selection.h"
+#include "compare/commands.h"
 #include "compare/efficiency.h"
 #include "compare/figures.h"
 #include "compare/progress.h"
@@ -13,6 +14,7 @@ static const char HELP[] =
     "usage: critvel-compare [options] FILE\n"
     "       critvel-compare efficiency [options] FILE\n"
     "       critvel-compare figures [options] FILE -o DIR\n"
+    "       critvel-compare roots FILE --alpha X --mass-ratio M [options]\n"
     "\n"
     "Finds the velocities at which a mass moving on an infinite beam on three viscoelastic layers gains or "
     "loses\n"
@@ -27,6 +29,7 @@ static const char HELP[] =
     "double precision, the largest precision, and processor time.\n"
     "\n"
     "figures: the figures of the paper through gnuplot; see critvel-compare figures --help\n"
+    "roots: mass-induced frequencies and growth rates by both methods; see critvel-compare roots --help\n"
     "\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
     "  --damping X       eta_p = eta_b = eta_f = X instead of the levels of the file\n"
@@ -162,12 +165,19 @@ static cv_status work(const void *typed, const cv_arguments *arguments, FILE *ou
     return status;
 }
 
+/* Commands with options of their own. */
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+} OWN_OPTIONS[] = {{"figures", cmp_figures_main}, {"roots", cmp_roots_main}};
+
 /* The first word is FILE unless it is a command; a file of that name can be given as ./efficiency. */
 int main(int argc, char **argv)
 {
     static const char *const commands[] = {"efficiency", NULL};
-    if (argc > 1 && strcmp(argv[1], "figures") == 0)
-        return cmp_figures_main(argc, argv);
+    for (size_t i = 0; argc > 1 && i < sizeof OWN_OPTIONS / sizeof *OWN_OPTIONS; i++)
+        if (strcmp(argv[1], OWN_OPTIONS[i].name) == 0)
+            return OWN_OPTIONS[i].run(argc, argv);
     const int commanded = argc > 1 && strcmp(argv[1], commands[0]) == 0;
     const cv_program program = {"critvel-compare", HELP, commanded ? commands : NULL, OPTIONS, work};
     options o = {.output = NULL, .threads = 0, .transitions = 0};
