@@ -6,9 +6,9 @@
 
 #include "dgreen/curve_refine.h"
 
-/* Nodes per decade of the distance from a branch point, and the first distance in units of its width */
+/* Nodes per decade of the distance from a branch point, down to this part of its width */
 enum { PER_DECADE = 4 };
-static const double FIRST = 0.4, FIRST_SOFT = 0.4;
+static const double CORE = 0.6;
 /* Relative spacing of doubles with some room */
 static const double SPACING = 1e-15;
 
@@ -60,43 +60,32 @@ void dg_curve_sort(dg_curve *c)
     c->node_count = n;
 }
 
-/* Nodes on one side of a branch point (side = +-1) at logarithmic distances up to "reach". */
-static cv_status grade(dg_curve *c, const dg_probe *p, double centre, double first, double reach, int side,
-                       cv_message *why)
+/* The step from q to the next node: a part of the distance to every branch point and to 0, the same on the
+ * way towards a point as away from it; on the point itself when it is that near. */
+static double step_at(const dg_station *at, double q, double part)
 {
-    const double ratio = pow(10, 1.0 / PER_DECADE);
-    cv_status status = CV_OK;
-    for (double d = first; d < reach && status == CV_OK; d *= ratio)
-        status = dg_curve_add(c, p, centre + side * d, why);
-    return status;
+    double step = part * q;
+    for (size_t i = 0; i < at->count; i++) {
+        const dg_branch_point *point = &at->points[i];
+        const double distance = fabs(q - point->q), room = hypot(distance, CORE * point->width);
+        if (point->q <= q)
+            step = fmin(step, part * room);
+        else
+            step = fmin(step, fmin(part / (1 + part) * room, distance));
+    }
+    return fmax(step, 4 * SPACING * q);
 }
 
-static double first_distance(const dg_branch_point *point)
-{
-    return fmax((point->soft ? FIRST_SOFT : FIRST) * point->width, 4 * SPACING * point->q);
-}
-
-/* The nodes around every branch point and those that lead to both ends. */
+/* The first nodes, from q_first to q_last. */
 static cv_status lay_nodes(dg_curve *c, const dg_probe *p, double q_first, double q_last, cv_message *why)
 {
-    double left = 0, left_first = q_first;
-    cv_status status = CV_OK;
-    for (size_t i = 0; i < c->at.count && status == CV_OK; i++) {
-        const dg_branch_point *point = &c->at.points[i];
-        if (point->q <= 2 * q_first)
-            continue;
-        const double reach = (point->q - left) / 2, first = first_distance(point);
-        status = grade(c, p, left, left_first, reach, 1, why);
-        if (status == CV_OK && reach > q_first)
-            status = dg_curve_add(c, p, left + reach, why);
-        if (status == CV_OK)
-            status = grade(c, p, point->q, first, reach, -1, why);
-        if (status == CV_OK)
-            status = dg_curve_add(c, p, point->q, why);
-        left = point->q;
-        left_first = first;
+    const double part = pow(10, 1.0 / PER_DECADE) - 1;
+    cv_status status = dg_curve_add(c, p, q_first, why);
+    for (double q = q_first; q < q_last && status == CV_OK;) {
+        q += step_at(&c->at, q, part);
+        status = dg_curve_add(c, p, q, why);
     }
-    return status == CV_OK ? grade(c, p, left, left_first, q_last, 1, why) : status;
+    return status;
 }
 
 /* Far above all branch points and the pads the rail alone is left: zeta ~ -(1 + i) sqrt(q)/(4 sqrt 2)... of
