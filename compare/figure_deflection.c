@@ -2,9 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "compare/figure.h"
-#include "semianalytic/pseudocritical.h"
-#include "semianalytic/resonances.h"
+#include "compare/figure_velocities.h"
 
 /* Panel a) shows nine tenths of the curves, and room above; the rest are peaks that go to infinity. */
 static const double SHOWN = 0.9, ROOM = 1.5;
@@ -20,17 +18,10 @@ typedef struct {
 } point;
 
 typedef struct {
-    double low, high; /* alpha */
-    sa_resonance_list resonances;
-    sa_pseudocritical_list peaks;
+    cmp_velocities velocities;
     size_t count, room;
     point *points;
 } curves;
-
-static double alpha_of(const sa_resonance *r)
-{
-    return mpfr_get_d(r->alpha, MPFR_RNDN);
-}
 
 static cv_status add_point(curves *c, const sa_undamped *s, cv_message *why)
 {
@@ -63,7 +54,7 @@ static cv_status follow(curves *c, const sa_dispersion *track, double from, doub
             const cv_status status = add_point(c, &s, why);
             if (status != CV_OK)
                 return status;
-            step = fmin((c->high - c->low) / STEPS, fmax(step, 0.15 * (double)s.reach));
+            step = fmin((c->velocities.high - c->velocities.low) / STEPS, fmax(step, 0.15 * (double)s.reach));
         }
         if (!(alpha < to))
             return CV_OK;
@@ -87,20 +78,20 @@ static int by_alpha(const void *a, const void *b)
 /* Those between low and high, and high itself; the caller frees them. NULL: out of memory */
 static stop *find_stops(size_t *count, const curves *c)
 {
-    stop *stops = calloc(c->resonances.count + c->peaks.count + 1, sizeof *stops);
+    stop *stops = calloc(c->velocities.resonances.count + c->velocities.peaks.count + 1, sizeof *stops);
     size_t n = 0;
     if (stops == NULL)
         return NULL;
-    for (size_t i = 0; i < c->resonances.count; i++)
-        stops[n++] = (stop){alpha_of(&c->resonances.item[i]), 1};
-    for (size_t i = 0; i < c->peaks.count; i++)
-        stops[n++] = (stop){(double)c->peaks.item[i].alpha, 0};
+    for (size_t i = 0; i < c->velocities.resonances.count; i++)
+        stops[n++] = (stop){cmp_resonance_alpha(&c->velocities.resonances.item[i]), 1};
+    for (size_t i = 0; i < c->velocities.peaks.count; i++)
+        stops[n++] = (stop){(double)c->velocities.peaks.item[i].alpha, 0};
     qsort(stops, n, sizeof *stops, by_alpha);
     size_t kept = 0;
     for (size_t i = 0; i < n; i++)
-        if (stops[i].alpha > c->low && stops[i].alpha < c->high)
+        if (stops[i].alpha > c->velocities.low && stops[i].alpha < c->velocities.high)
             stops[kept++] = stops[i];
-    stops[kept++] = (stop){c->high, 0};
+    stops[kept++] = (stop){c->velocities.high, 0};
     *count = kept;
     return stops;
 }
@@ -110,15 +101,11 @@ static cv_status compute(curves *c, const cv_params *params, cv_message *why)
     sa_dispersion track;
     size_t count = 0;
     sa_dispersion_set(&track, params);
-    cv_status status = sa_resonances(&c->resonances, params, 15, why);
-    if (status == CV_OK)
-        status = sa_pseudocritical_find(&c->peaks, params, c->low, c->high, why);
-    if (status != CV_OK)
-        return status;
+    cv_status status = CV_OK;
     stop *stops = find_stops(&count, c);
     if (stops == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
-    double from = c->low;
+    double from = c->velocities.low;
     for (size_t i = 0; i < count && status == CV_OK; i++) {
         const stop *s = &stops[i];
         status = follow(c, &track, from, s->resonance ? s->alpha * (1 - NEAREST) : s->alpha, why);
@@ -128,19 +115,6 @@ static cv_status compute(curves *c, const cv_params *params, cv_message *why)
     }
     free(stops);
     return status;
-}
-
-/* The velocity, resonance or pseudocritical, beyond which nothing happens any more; low: there is none. */
-static double last_event(const curves *c)
-{
-    double last = c->low;
-    for (size_t i = 0; i < c->resonances.count; i++) {
-        const double alpha = alpha_of(&c->resonances.item[i]);
-        last = alpha < c->high ? fmax(last, alpha) : last;
-    }
-    for (size_t i = 0; i < c->peaks.count; i++)
-        last = fmax(last, (double)c->peaks.item[i].alpha);
-    return last;
 }
 
 typedef struct {
@@ -153,11 +127,11 @@ static int by_size(const void *a, const void *b)
     return (x->size > y->size) - (x->size < y->size);
 }
 
-/* The size that the curves do not exceed over that share of low .. high; 0 when out of memory. */
+/* The size > 0 that the curves do not exceed over that share of low .. high. */
 static double quantile(const curves *c, double high, double wanted)
 {
     share *all = malloc(c->count * sizeof *all);
-    double total = 0, size = 0;
+    double total = 0, size = 1;
     size_t n = 0;
     for (size_t i = 0; all != NULL && i + 1 < c->count && c->points[i].alpha < high; i++) {
         if (c->points[i].last)
@@ -166,7 +140,7 @@ static double quantile(const curves *c, double high, double wanted)
         all[n++] = (share){fmax(p->max, -p->min), p[1].alpha - p->alpha};
         total += all[n - 1].width;
     }
-    if (n > 0)
+    if (n > 1)
         qsort(all, n, sizeof *all, by_size);
     double sum = 0;
     for (size_t i = 0; i < n && sum < wanted * total; i++) {
@@ -177,42 +151,13 @@ static double quantile(const curves *c, double high, double wanted)
     return size;
 }
 
-/* 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten, at least x > 0 */
-static double round_up(double x)
-{
-    static const double steps[] = {1, 1.5, 2, 3, 4, 5, 6, 8, 10};
-    const double power = pow(10, floor(log10(x)));
-    size_t i = 0;
-    while (steps[i] * power < x * (1 - 1e-12) && steps[i] < 10)
-        i++;
-    return steps[i] * power;
-}
-
 static const sa_pseudocritical *highest_peak(const curves *c)
 {
     const sa_pseudocritical *highest = NULL;
-    for (size_t i = 0; i < c->peaks.count; i++)
-        if (highest == NULL || fabs(c->peaks.item[i].deflection) > fabs(highest->deflection))
-            highest = &c->peaks.item[i];
+    for (size_t i = 0; i < c->velocities.peaks.count; i++)
+        if (highest == NULL || fabs(c->velocities.peaks.item[i].deflection) > fabs(highest->deflection))
+            highest = &c->velocities.peaks.item[i];
     return highest;
-}
-
-static size_t resonances_of(const curves *c, sa_resonance_kind kind)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < c->resonances.count; i++)
-        n += c->resonances.item[i].kind == kind;
-    return n;
-}
-
-static void write_marks(FILE *data, const curves *c, sa_resonance_kind kind)
-{
-    if (resonances_of(c, kind) == 0)
-        return;
-    fprintf(data, "\n\n# %s\n# alpha\n", sa_resonance_kind_text(kind));
-    for (size_t i = 0; i < c->resonances.count; i++)
-        if (c->resonances.item[i].kind == kind)
-            fprintf(data, "%.15g\n", alpha_of(&c->resonances.item[i]));
 }
 
 static void write_data(FILE *data, const curves *c)
@@ -225,43 +170,22 @@ static void write_data(FILE *data, const curves *c)
         if (p->last && i + 1 < c->count)
             fputc('\n', data);
     }
-    write_marks(data, c, SA_RESONANCE_TRUE);
-    write_marks(data, c, SA_RESONANCE_FALSE);
-    write_marks(data, c, SA_RESONANCE_MERGING);
-    if (c->peaks.count > 0)
-        fprintf(data, "\n\n# pseudocritical\n# alpha, w, of which curve\n");
-    for (size_t i = 0; i < c->peaks.count; i++) {
-        const sa_pseudocritical *p = &c->peaks.item[i];
-        fprintf(data, "%.15Lg %.10g \"%s\"\n", p->alpha, p->deflection, sa_curve_text(p->of));
-    }
-}
-
-/* Vertical lines through the panel */
-static void plot_marks(FILE *s, const curves *c, sa_resonance_kind kind, int style)
-{
-    if (resonances_of(c, kind) > 0)
-        fprintf(
-            s,
-            ", \\\n    data index '%s' using 1:(bottom):(0):(top - bottom) with vectors nohead linestyle %d "
-            "title 'resonance velocity (%s)'",
-            sa_resonance_kind_text(kind), style, sa_resonance_kind_text(kind));
+    cmp_velocities_data(data, &c->velocities);
 }
 
 static void plot(const cmp_picture *p, const curves *c, double left, double right, double size)
 {
     FILE *s = p->script;
-    fprintf(s, "set xrange [%.3g:%.3g]\nbottom = %g; top = %g\nset yrange [bottom:top]\n", left, right, -size,
-            size);
+    fprintf(s, "set xrange [%.10g:%.10g]\nbottom = %g; top = %g\nset yrange [bottom:top]\n", left, right,
+            -size, size);
     fprintf(s, "plot 0 linestyle 8, \\\n"
                "    data index 'curves' using 1:2 with lines linestyle 1 title 'max', \\\n"
                "    data index 'curves' using 1:3 with lines linestyle 2 title 'min', \\\n"
                "    data index 'curves' using 1:4 with lines linestyle 3 title 'AP'");
-    if (c->peaks.count > 0)
+    if (c->velocities.peaks.count > 0)
         fprintf(s, ", \\\n    data index 'pseudocritical' using 1:2 with points linestyle 9 title "
                    "'pseudocritical velocity'");
-    plot_marks(s, c, SA_RESONANCE_TRUE, 5);
-    plot_marks(s, c, SA_RESONANCE_FALSE, 6);
-    plot_marks(s, c, SA_RESONANCE_MERGING, 6);
+    cmp_velocities_plot(s, &c->velocities, 0);
     fprintf(s, "\n");
 }
 
@@ -277,33 +201,33 @@ static void write_script(const cmp_picture *p, const curves *c, double high, dou
     fprintf(p->script, "set key outside top center horizontal maxcols 3\n");
     if (zoomed)
         fprintf(p->script, "set multiplot layout 1,2\nset title 'a)' offset 0,-0.5\n");
-    plot(p, c, 0, high, size);
+    plot(p, c, cmp_velocities_begin(&c->velocities, high), high, size);
     if (zoomed) {
         const double alpha = (double)peak->alpha;
         fprintf(p->script, "set title 'b)'\n");
-        plot(p, c, alpha * (1 - AROUND), alpha * (1 + AROUND), round_up(1.05 * fabs(peak->deflection)));
+        plot(p, c, alpha * (1 - AROUND), alpha * (1 + AROUND), cmp_round_up(1.05 * fabs(peak->deflection)));
         fprintf(p->script, "unset multiplot\n");
     }
 }
 
 cv_status cmp_draw_deflection(cmp_picture *p, const cmp_figure *f, cv_message *why)
 {
-    curves c = {.low = cv_number_get_double(&f->file->alpha_min),
-                .high = cv_number_get_double(&f->file->alpha_max)};
+    curves c = {.count = 0};
     char of[CMP_PICTURE_SHOWS];
     snprintf(p->shows, sizeof p->shows,
              "undamped steady deflection of the rail over the velocity of the force, %s",
              cmp_figure_case(of, f));
-    cv_status status = compute(&c, &f->of->params, why);
-    if (status == CV_OK && c.count == 0)
+    cv_status status = cmp_velocities_find(&c.velocities, f, why);
+    if (status == CV_OK)
+        status = compute(&c, &f->of->params, why);
+    if (status == CV_OK && c.count < 2)
         status = cv_fail(why, CV_UNDECIDED, "no velocity has a finite deflection");
     if (status == CV_OK) {
-        const double high = fmin(c.high, fmax(1.4 * last_event(&c), 2 * c.low));
+        const double end = cmp_velocities_end(&c.velocities);
         write_data(p->data, &c);
-        write_script(p, &c, round_up(high), round_up(ROOM * quantile(&c, high, SHOWN)));
+        write_script(p, &c, end, cmp_round_up(ROOM * quantile(&c, end, SHOWN)));
     }
-    sa_resonances_clear(&c.resonances);
-    sa_pseudocritical_clear(&c.peaks);
+    cmp_velocities_clear(&c.velocities);
     free(c.points);
     return status;
 }

@@ -21,6 +21,8 @@ static const char HELP[] =
     "  curve-right   figure 2: D-decomposition curves, the stable part to the right; stable and unstable\n"
     "  curve-left    figure 3: the same with the stable part to the left; curve: both\n"
     "  deflection    figures 6, 7: undamped steady deflection over the velocity of the moving force\n"
+    "  map           number of unstable roots, and growth rate, over velocity and mass ratio\n"
+    "  steady        steady shapes of rail, sleepers and ballast under the moving force\n"
     "\n"
     "  -o DIR            the folder, made when it is missing\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
@@ -48,6 +50,8 @@ static const struct {
     {"curve-right", "curve", "2", cmp_draw_curve_right},
     {"curve-left", "curve", "3", cmp_draw_curve_left},
     {"deflection", "deflection", "67", cmp_draw_deflection},
+    {"map", "map", "", cmp_draw_map},
+    {"steady", "steady", "", cmp_draw_steady},
 };
 
 enum { KIND_COUNT = sizeof KINDS / sizeof KINDS[0] };
@@ -129,6 +133,22 @@ const char *cmp_figure_case(char *out, const cmp_figure *f)
 {
     snprintf(out, CMP_PICTURE_SHOWS, "%s %.100s", f->of->is_track ? "track" : "case", f->of->name);
     return out;
+}
+
+size_t cmp_figure_levels(const cmp_figure *f)
+{
+    return f->set->damping.given ? 1 : f->of->level_count;
+}
+
+void cmp_figure_params(cv_params *out, const cmp_figure *f, size_t level)
+{
+    const cv_optional_number *damping = &f->set->damping;
+    cv_case_params(out, f->of, damping->given ? 0 : level);
+    if (damping->given) {
+        cv_number_set(&out->eta_p, &damping->value);
+        cv_number_set(&out->eta_b, &damping->value);
+        cv_number_set(&out->eta_f, &damping->value);
+    }
 }
 
 /* Letters, digits, '-' and '.' of the case's name, the rest as '-'; names that then are equal get the number

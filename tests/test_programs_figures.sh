@@ -136,6 +136,32 @@ verify "it is said" grep -q '^curve-left-1 *not drawn, case 1: no crossing' "$fo
 exits 0 "--mass-ratio" "$paper" -o "$folder/curves" --only 2 --case 1 --alpha 0.3 --mass-ratio 80 --format svg
 verify "one panel" test "$(grep -c '^plot' "$folder/curves/curve-right-1.gp")" -eq 1
 
+# The map against the roots that the other method finds, at fields all over the plane.
+# same_roots ALPHA ETA_M ROOTS GROWTH
+same_roots() {
+    "$build/critvel-semianalytic" roots "$paper" --case 1 --damping 0.05 --alpha "$1" --mass-ratio "$2" --digits 10 |
+        awk -v wanted="$3" -v growth="$4" '
+            NR == 1 { roots = $3 } /^unstable/ && $5 > greatest { greatest = $5 }
+            END { d = greatest - growth; exit !(roots == wanted && d * d <= 1e-8 * growth * growth) }'
+}
+exits 0 "map" "$paper" -o "$folder/map" --only map --case 1 --damping 0.05 --format svg
+verify "map-1.svg is SVG" is_svg "$folder/map/map-1.svg"
+block "$folder/map/map-1.dat" "map 1" | awk 'NF == 4 && ++n % 1607 == 800' >"$folder/fields"
+verify "stable and unstable fields among them" test "$(awk '{ print $3 }' "$folder/fields" | sort -u | wc -l)" -eq 2
+while read -r alpha eta_M roots growth; do
+    verify "map at alpha $alpha, eta_M $eta_M" same_roots "$alpha" "$eta_M" "$roots" "$growth"
+done <"$folder/fields"
+
+# Steady shapes: springs in series nearly at rest; equal far ahead and far behind before waves are radiated.
+exits 0 "steady shapes" "$paper" -o "$folder/steady" --only steady --case 2 --alpha 0.02 --format svg
+verify "steady-2.svg is SVG" is_svg "$folder/steady/steady-2.svg"
+verify "deflection at the force" close "$(block "$folder/steady/steady-2.dat" a | awk '$1 == 0 { print $2 }')" \
+    "$(awk 'BEGIN { print 1.17619 ^ 0.75 }')" 0.01
+verify "rail, sleepers, ballast: less and less" sh -c "echo '$(block "$folder/steady/steady-2.dat" a | awk '$1 == 0')' |
+    awk '{ exit !(\$2 > \$3 && \$3 > \$4 && \$4 > 0) }'"
+exits 1 "steady shapes at a resonance velocity" "$paper" -o "$folder/steady" --only steady --case 3 --alpha 0.44485524035145315
+verify "it is said" grep -q '^steady-3 .*not drawn' "$folder/out"
+
 # Names of cases become names of files.
 awk '/^\[case 3\]/ { print "[case ../$(touch x) '"'"'_^{}\\]"; next } /^\[case 4\]/ { print "[case ..-$-touch-x- _^{}\\]"; next } { print }' \
     "$paper" >"$folder/names.ini"
