@@ -7,6 +7,7 @@ typedef struct {
     sa_field *field;
     const sa_search *search;
     double extent_u, extent_t; /* of the block, natural logarithms */
+    sa_segment block;          /* without ends */
     unsigned long cells;
 } search_state;
 
@@ -104,7 +105,14 @@ static int differ(const cell_data *d, int i, int j)
 
 static cv_status emit(const search_state *st, const cell_data *d, const int edge[2][2], int axis)
 {
-    sa_segment segment = {.axis = axis};
+    sa_segment segment = st->block;
+    segment.axis = axis;
+    for (int i = 0; i < 2; ++i) {
+        const sa_sample *a = &d->s[edge[i][0]], *b = &d->s[edge[i][1]];
+        segment.edge[i].along = a->u == b->u;
+        segment.edge[i].low = a->u == b->u ? a->t : a->u;
+        segment.edge[i].high = a->u == b->u ? b->t : b->u;
+    }
     cv_status status = edge_zero(&segment.from, st->field, &d->s[edge[0][0]], &d->s[edge[0][1]]);
     if (status == CV_OK)
         status = edge_zero(&segment.to, st->field, &d->s[edge[1][0]], &d->s[edge[1][1]]);
@@ -235,6 +243,7 @@ static int first_cells(double extent, double largest)
 static cv_status search_block(search_state *st, size_t column, int side_u, int strip, int side_t)
 {
     sa_field_block(st->field, column, side_u, strip, side_t);
+    st->block = (sa_segment){.column = column, .side_u = side_u, .strip = strip, .side_t = side_t};
     cv_status status = measure(st, column, side_u, strip, side_t);
     int n = first_cells(st->extent_u, st->search->largest_cell),
         m = first_cells(st->extent_t, st->search->largest_cell);

@@ -9,6 +9,12 @@
 typedef struct {
     sa_sample from, to;
     int axis;
+    size_t column; /* the block, as for sa_field_block */
+    int side_u, strip, side_t;
+    struct {
+        int along;        /* 0: along u, t is fixed; 1: along t, u is fixed */
+        double low, high; /* in that coordinate */
+    } edge[2];            /* the edges of the cell that hold from and to, the only zero on them */
 } sa_segment;
 
 typedef struct {

@@ -11,26 +11,46 @@ static void shift(sa_sample *s, double du, double dt)
     s->im += s->im_u * du + s->im_t * dt;
 }
 
+/* The range of the coordinate across the axis in which the cell holds the segment. */
+static void range_across(double *low, double *high, const sa_segment *s)
+{
+    const sa_sample *end[2] = {&s->from, &s->to};
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int i = 0; i < 2; ++i) {
+        int whole = s->edge[i].along != s->axis; /* the edge lies across the axis */
+        double at = s->axis == 0 ? end[i]->t : end[i]->u;
+        *low = fmin(*low, whole ? s->edge[i].low : at);
+        *high = fmax(*high, whole ? s->edge[i].high : at);
+    }
+}
+
+/* Im zeta is monotone across the axis: Newton, or bisection where that leaves what is left of the cell. */
 cv_status sa_segment_point(sa_sample *out, sa_field *field, const sa_segment *segment, double x)
 {
     const sa_sample *p = &segment->from, *q = &segment->to;
-    const double slack = 0.3, close = 1e-8;
-    double u = p->u + x * (q->u - p->u), t = p->t + x * (q->t - p->t);
-    double *v = segment->axis == 0 ? &t : &u;
-    double a = segment->axis == 0 ? p->t : p->u, b = segment->axis == 0 ? q->t : q->u;
-    double extent = fabs(b - a), scale = fmax(extent, 1e-3 * hypot(q->u - p->u, q->t - p->t));
-    double low = fmax(fmin(a, b) - slack * scale, 0), high = fmin(fmax(a, b) + slack * scale, 1);
-    for (int i = 0; i < 40; ++i) {
+    const double close = 1e-8;
+    const int axis = segment->axis;
+    double u = p->u + x * (q->u - p->u), t = p->t + x * (q->t - p->t), *v = axis == 0 ? &t : &u;
+    double along = hypot(q->u - p->u, q->t - p->t), low, high;
+    int rises = (axis == 0 ? p->im_t : p->im_u) > 0;
+    range_across(&low, &high, segment);
+    double scale = fmax(high - low, 1e-3 * along);
+    for (int i = 0; i < 60; ++i) {
         cv_status status = sa_field_at(out, field, u, t);
         if (status != CV_OK)
             return status;
-        double step = -out->im / (segment->axis == 0 ? out->im_t : out->im_u);
-        if (!(fabs(step) > close * scale) || fabs(out->im) <= 2 * out->im_error) {
+        double step = -out->im / (axis == 0 ? out->im_t : out->im_u);
+        if (!(fabs(step) > close * scale) || fabs(out->im) <= 2 * out->im_error || !(high > low)) {
             if (fabs(step) <= close * scale)
-                shift(out, segment->axis == 0 ? 0 : step, segment->axis == 0 ? step : 0);
+                shift(out, axis == 0 ? 0 : step, axis == 0 ? step : 0);
             return CV_OK;
         }
-        *v = fmin(fmax(*v + step, low), high);
+        if ((out->im > 0) == rises)
+            high = *v;
+        else
+            low = *v;
+        *v = *v + step >= low && *v + step <= high ? *v + step : low + (high - low) / 2;
     }
     return CV_OK;
 }

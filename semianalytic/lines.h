@@ -1,0 +1,135 @@
+/* Instability lines: all points (alpha, q), q > 0, with Im zeta = 0 < Re zeta, seen in the plane of alpha and
+ * eta_M = 1 / Re zeta. A mass on a line has a pair of roots qbar = +-iq; the number N of unstable roots
+ * differs by 2 across it. Lines do not cross in (alpha, q), but may in (alpha, eta_M).
+ *
+ * Lines are put together from the short monotone segments that sa_map_search (map_search.h) finds in every
+ * cell of the map, over all eta_M > 0 as far as eta_M = 1e12 or more, and then cut at the ends of the range
+ * of eta_M into branches. What goes on beyond the cut is known: an asymptote (asymptotes.h), a point where
+ * zeta = 0 at q > 0, another branch. Whatever does not fit together is an undecided end.
+ *
+ * Every line runs so that, with alpha to the right and eta_M upwards, N is larger by 2 on its left. All
+ * quantities are dimensionless. */
+#ifndef CRITVEL_SEMIANALYTIC_LINES_H
+#define CRITVEL_SEMIANALYTIC_LINES_H
+
+#include <stddef.h>
+
+#include "semianalytic/asymptotes.h"
+
+/* What a vertex is besides a point of the line; flags. */
+enum {
+    SA_MARK_LEAST_MASS = 1, /* local minimum of eta_M along the line */
+    SA_MARK_MOST_MASS = 2,  /* local maximum */
+    SA_MARK_TURN = 4,       /* turning point: alpha has a local extremum along the line */
+    SA_MARK_CUT = 8         /* at an end of the range, where one coordinate is exact */
+};
+
+/* |error| <= bound for each coordinate; a bound of 0 means exact, or less than a double holds. At marked
+ * extremes the bounds say that the point is on the line; the extreme value is within value_error (see there)
+ * of the largest or smallest on the line. */
+typedef struct {
+    mpfr_t alpha, q, eta_M;
+    double alpha_error, q_error, eta_M_error;
+    int marks;
+    double value_error; /* of the extreme eta_M (LEAST_, MOST_MASS) or alpha (TURN); else 0 */
+    cv_status decided;  /* CV_UNDECIDED: a bound is larger than 10^-digits of its coordinate */
+} sa_line_vertex;
+
+/* Where a branch ends. */
+typedef enum {
+    SA_END_CLOSED,     /* nowhere: first and last vertex are the same */
+    SA_END_ALPHA_LOW,  /* the lower end of the range of alpha */
+    SA_END_ALPHA_HIGH, /* the upper end */
+    SA_END_MASS_LOW,   /* the lower end of the range of eta_M */
+    SA_END_MASS_HIGH,  /* the upper end */
+    SA_END_UNDECIDED   /* the pieces of the line do not fit together here */
+} sa_end_kind;
+
+/* What the line does beyond the end of its branch. */
+typedef enum {
+    SA_BEYOND_NOTHING,   /* not known: the range of alpha ends, or undecided; closed lines */
+    SA_BEYOND_ASYMPTOTE, /* eta_M grows to infinity as q -> 0, alpha -> that of asymptote "number" */
+    SA_BEYOND_ZERO,      /* eta_M grows to infinity at q > 0: zeta(zero_alpha, zero_q) = 0 */
+    SA_BEYOND_BRANCH,    /* comes back into the range of eta_M as branch "number" */
+    SA_BEYOND_ALPHA_LOW, /* leaves the range of alpha outside that of eta_M */
+    SA_BEYOND_ALPHA_HIGH
+} sa_beyond_kind;
+
+typedef struct {
+    sa_end_kind kind;
+    sa_beyond_kind beyond;
+    size_t number;
+    double zero_alpha, zero_q; /* in double precision */
+} sa_line_end;
+
+/* Of the whole line, not only of the branch. */
+typedef enum {
+    SA_LINE_CLOSED,
+    SA_LINE_INFINITE,  /* both ends at infinite mass: asymptotes or zeros of zeta */
+    SA_LINE_ZERO_MASS, /* one end leaves the range of alpha at its upper end, on the way to zero mass at
+                        * infinite velocity */
+    SA_LINE_OUT,       /* leaves the range of alpha at its lower end, or at the upper with both ends */
+    SA_LINE_UNDECIDED  /* an end is */
+} sa_line_kind;
+
+typedef struct {
+    size_t line; /* branches cut from one line have the same */
+    sa_line_kind kind;
+    sa_line_end start, end;
+    size_t count;
+    sa_line_vertex *vertex; /* in the direction of the line */
+    /* N on both sides at one vertex, from the crossings of the real axis there (crossings.h); elsewhere on
+     * the branch both may differ from this by the same number, where other lines pass. CV_UNDECIDED: no
+     * vertex was found at which it can be counted. */
+    size_t counted_at;
+    int roots_left, roots_right;
+    cv_status counted;
+} sa_branch;
+
+typedef struct sa_line_store sa_line_store;
+
+typedef struct {
+    size_t line_count; /* lines, also those outside the range of eta_M */
+    size_t count;
+    sa_branch *branch; /* by line, and along it */
+    sa_asymptote_list asymptotes;
+    cv_status decided; /* CV_UNDECIDED: something does not fit together; reason names the first of it */
+    cv_message reason;
+    size_t place_count; /* velocities and frequencies at which lines could not be put together */
+    double (*place)[2];
+    sa_line_store *store; /* for sa_lines_count */
+} sa_lines;
+
+/* 0 < alpha_min < alpha_max, 1e-12 <= mass_min < mass_max <= 1e12 */
+typedef struct {
+    const cv_number *alpha_min, *alpha_max, *mass_min, *mass_max;
+} sa_lines_range;
+
+/* All branches in the range. Vertices are so many that the polyline in (alpha, log eta_M) is nearer than 1e-3
+ * of the range (each axis by its own) to the line, and hardly more; one coordinate of each is exact in double
+ * or at the end of the range, the others are right to the digits. CV_OK also when something is undecided.
+ * CV_BAD_INPUT: params refused by cv_params_check or undamped, not a range. CV_FAILED: out of memory, a
+ * library failed; nothing is then allocated. */
+cv_status sa_lines_find(sa_lines *out, const cv_params *params, const sa_lines_range *range, int digits,
+                        cv_message *why);
+void sa_lines_clear(sa_lines *lines);
+
+/* N(alpha, eta_M) by the lines: 2 (those that pass alpha below eta_M towards larger alpha, minus those
+ * towards smaller alpha). CV_UNDECIDED: a line passes the point within double precision, or lines are
+ * undecided. CV_BAD_INPUT: alpha outside the range, eta_M not positive or above 1e12. */
+cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why);
+
+/* Puts a point on a line: one coordinate is given exactly, the other is the zero of Im zeta next to "start",
+ * found by secants in MPFR and enclosed by a proven change of sign. */
+typedef enum { SA_GIVEN_ALPHA, SA_GIVEN_Q } sa_line_given;
+
+/* out is initialised here and has relative bounds below 10^-digits (eta_M: as far as Re zeta varies linearly
+ * over the enclosure) where decided. *rises: 1 when Im zeta grows with the coordinate sought, else -1, 0 if
+ * undecided. eta_M is negative where Re zeta is. The zero found need not be the nearest to start if start is
+ * not near; compare. sweep is only a warm start. CV_OK also when undecided; CV_BAD_INPUT: given or start not
+ * positive. */
+cv_status sa_line_point(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
+                        sa_line_given which, const mpfr_t given, double start, int digits);
+void sa_line_vertex_clear(sa_line_vertex *vertex);
+
+#endif

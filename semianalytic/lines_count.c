@@ -1,0 +1,130 @@
+#include <math.h>
+
+#include "semianalytic/crossings.h"
+#include "semianalytic/lines_parts.h"
+
+/* N on both sides of the crossing at eta_M, q; 0 when it cannot be told from the others. */
+static int count_at(sa_branch *b, const sa_crossings *list, double eta_M, double q)
+{
+    const double near = 1e-3, same_mass = 0.02;
+    const sa_crossing *own = NULL;
+    int below = 0;
+    for (size_t i = 0; i < list->count; ++i) {
+        const sa_crossing *c = &list->items[i];
+        double excess = c->re * eta_M - 1;
+        if (fabs(c->q - q) < near * q && fabs(excess) < same_mass) {
+            if (own != NULL)
+                return 0;
+            own = c;
+        } else if (!(fabs(excess) > near + 2 * c->re_error * eta_M)) {
+            return 0;
+        } else if (excess > 0) {
+            below += 2 * c->direction;
+        }
+    }
+    if (own == NULL)
+        return 0;
+    b->roots_left = own->direction > 0 ? below + 2 : below;
+    b->roots_right = own->direction > 0 ? below : below - 2;
+    return b->roots_right >= 0;
+}
+
+static cv_status try_vertex(sa_branch *b, const sa_line_store *store, size_t i)
+{
+    const sa_line_vertex *v = &b->vertex[i];
+    double alpha = mpfr_get_d(v->alpha, MPFR_RNDN), q = mpfr_get_d(v->q, MPFR_RNDN),
+           eta_M = mpfr_get_d(v->eta_M, MPFR_RNDN);
+    sa_crossings list;
+    if (v->decided != CV_OK || v->marks != 0)
+        return CV_OK;
+    cv_status status = sa_crossings_find(&list, &store->map, store->field, alpha, 0.5 / eta_M, NULL);
+    if (status == CV_OK && count_at(b, &list, eta_M, q)) {
+        b->counted = CV_OK;
+        b->counted_at = i;
+    }
+    sa_crossings_clear(&list);
+    return status == CV_FAILED ? status : CV_OK;
+}
+
+/* From the middle of the branch outwards. */
+cv_status sa_branch_count(sa_branch *branch, const sa_line_store *store)
+{
+    enum { TRIES = 16 };
+    cv_status status = CV_OK;
+    size_t middle = branch->count / 2;
+    branch->counted = CV_UNDECIDED;
+    for (size_t k = 0; k < TRIES && status == CV_OK && branch->counted != CV_OK; ++k) {
+        size_t step = (k + 1) / 2, i = k % 2 ? middle + step : middle - step;
+        if (i < branch->count)
+            status = try_vertex(branch, store, i);
+    }
+    return status;
+}
+
+/* Where a line passes alpha between two samples. */
+typedef struct {
+    const sa_line_sample *a, *b;
+    double alpha;
+} passage;
+
+/* Re zeta there: Newton in q from the chord, kept between the samples with some room. */
+static cv_status re_at(double *re, double *error, const passage *p, sa_line_store *store)
+{
+    double x = (p->alpha - p->a->alpha) / (p->b->alpha - p->a->alpha);
+    double q = p->a->q + x * (p->b->q - p->a->q), slack = fabs(p->b->q - p->a->q) + 1e-12 * q;
+    double low = fmin(p->a->q, p->b->q) - slack, high = fmax(p->a->q, p->b->q) + slack;
+    for (int i = 0; i < 40; ++i) {
+        sa_value v;
+        cv_status status = sa_zeta_adaptive(&v, store->sweep, store->track, p->alpha, q, 0.1);
+        if (status != CV_OK)
+            return status;
+        double step = -v.im / cimag(v.d_q);
+        *re = v.re;
+        *error = v.re_error + fabs(creal(v.d_q) * step) + fabs(creal(v.d_q)) * 1e-15 * q;
+        if (fabs(step) < 1e-14 * q || fabs(creal(v.d_q) * step) < 1e-12 * fabs(v.re))
+            return CV_OK;
+        if (!(q + step > low && q + step < high))
+            return CV_UNDECIDED;
+        q += step;
+    }
+    return CV_UNDECIDED;
+}
+
+/* 1: the line passes below eta_M = 1 / level, 0: above, -1: undecided. */
+static int passes_below(const passage *p, sa_line_store *store, double level)
+{
+    const double clear = 3;
+    double low = fmin(p->a->re, p->b->re), high = fmax(p->a->re, p->b->re), re, error;
+    if (low > clear * level)
+        return 1;
+    if (high < level / clear)
+        return 0;
+    if (re_at(&re, &error, p, store) != CV_OK || !(fabs(re - level) > 2 * error))
+        return -1;
+    return re > level;
+}
+
+cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why)
+{
+    sa_line_store *store = lines->store;
+    int sum = 0;
+    if (!(alpha >= store->map.curves.alpha_min && alpha <= store->map.curves.alpha_max))
+        return cv_fail(why, CV_BAD_INPUT, "alpha = %.15g is outside the range of the lines", alpha);
+    if (!(eta_M > 0 && eta_M <= 1e12))
+        return cv_fail(why, CV_BAD_INPUT, "eta_M must be above 0 and at most 1e12");
+    for (size_t i = 0; i < lines->line_count; ++i) {
+        const sa_line *line = &store->line[i];
+        const sa_line_sample *s = &store->samples.item[line->first];
+        for (size_t k = 0; k + 1 < line->count + (size_t)line->closed; ++k) {
+            const passage p = {&s[k], &s[(k + 1) % line->count], alpha};
+            if ((p.a->alpha <= alpha) == (p.b->alpha <= alpha))
+                continue;
+            int below = passes_below(&p, store, 1 / eta_M);
+            if (below < 0)
+                return cv_fail(why, CV_UNDECIDED, "alpha = %.15g, eta_M = %.15g is on a line", alpha, eta_M);
+            sum += p.a->alpha <= alpha ? 2 * below : -2 * below;
+        }
+    }
+    *roots = sum;
+    return lines->decided;
+}
