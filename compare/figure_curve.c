@@ -3,30 +3,52 @@
 #include <stdlib.h>
 
 #include "compare/curve_pick.h"
-#include "compare/figure.h"
+#include "compare/curve_smooth.h"
+#include "compare/figure_velocities.h"
 #include "compare/format.h"
 #include "dgreen/stability_curve.h"
 
 /* The part of the plane that is shown, around z = 1. */
-static const double LEFT = -0.3, RIGHT = 2.2, TOP = 1.1;
-/* How far delta moves the curve where it crosses the real axis. */
-static const double SHIFT = 0.12;
+static const double LEFT = -0.3, RIGHT = 2.2, TOP = 1.2;
+/* It is lower where the curve is flat: so many times its height at FAR, or that of the loop before z = 1. */
+static const double FAR = 1.8, TIMES_FAR = 3, TIMES_LOOP = 2;
+/* How far delta moves the curve where it crosses the real axis, as part of the height. */
+static const double SHIFT = 0.1;
 enum { DIGITS = 6 };
 
-/* delta to one digit, so that z moves by SHIFT at the crossing nearest to 1. */
-static double choose_delta(const dg_stability_curve *c)
+static const dg_cut *nearest_cut(const dg_stability_curve *c)
 {
     const dg_cut *nearest = NULL;
     for (size_t i = 0; i < c->cut_count; i++)
         if (nearest == NULL || fabs(log(c->cuts[i].x)) < fabs(log(nearest->x)))
             nearest = &c->cuts[i];
+    return nearest;
+}
+
+static double choose_top(const dg_stability_curve *c, const dg_cut *cut)
+{
+    double loop = 0, far = TOP;
+    for (size_t i = 0; i + 1 < c->boundary.count; i++) {
+        const dg_vertex *a = &c->boundary.at[i], *b = a + 1;
+        if (cut != NULL && a->q < cut->q && a->re > 0 && a->re < FAR)
+            loop = fmax(loop, fabs(a->im));
+        if ((a->re < FAR) != (b->re < FAR))
+            far = fmin(far, fabs(a->im + (b->im - a->im) * (FAR - a->re) / (b->re - a->re)));
+    }
+    const double top = fmax(TIMES_FAR * far, TIMES_LOOP * loop);
+    return top > 0 ? fmin(TOP, cmp_round_up(top)) : TOP;
+}
+
+/* delta to one digit, so that z moves by "shift" at that crossing. */
+static double choose_delta(const dg_stability_curve *c, const dg_cut *nearest, double shift)
+{
     size_t i = 1;
     while (nearest != NULL && i + 1 < c->boundary.count && c->boundary.at[i].q < nearest->q)
         i++;
     if (nearest == NULL || i >= c->boundary.count)
         return 0.01;
     const dg_vertex *a = &c->boundary.at[i - 1], *b = &c->boundary.at[i];
-    const double delta = SHIFT * (b->q - a->q) / hypot(b->re - a->re, b->im - a->im);
+    const double delta = shift * (b->q - a->q) / hypot(b->re - a->re, b->im - a->im);
     const double unit = pow(10, floor(log10(delta)));
     return delta > 0 && isfinite(delta) ? unit * floor(delta / unit + 0.5) : 0.01;
 }
@@ -57,7 +79,8 @@ static void write_stable_parts(FILE *data, const dg_stability_curve *c, char pan
 typedef struct {
     cmp_picture *picture;
     const cv_params *params;
-    double alpha, delta; /* delta: 0 until it is chosen, then the same for both panels */
+    double alpha;
+    double delta, top; /* 0 until they are chosen, then the same for both panels */
     dg_sampler sampler;
 } drawing;
 
@@ -82,10 +105,20 @@ static cv_status draw_panel(drawing *d, double eta_M, char panel, int alone, cv_
     cv_status status = CV_OK;
     if (d->delta == 0) {
         status = dg_stability_curve_at(&c, &d->sampler, d->alpha, eta_M, 0.01, why);
-        d->delta = choose_delta(&c);
+        const dg_cut *cut = nearest_cut(&c);
+        d->top = choose_top(&c, cut);
+        d->delta = choose_delta(&c, cut, SHIFT * d->top);
+        fprintf(d->picture->script, "set yrange [%g:%g]\n", -d->top, d->top);
     }
     if (status == CV_OK)
         status = dg_stability_curve_at(&c, &d->sampler, d->alpha, eta_M, d->delta, why);
+    if (status == CV_OK) {
+        cmp_window w = {d->alpha, eta_M, 0, LEFT, RIGHT, d->top};
+        status = cmp_curve_smooth(&c.boundary, &d->sampler, &w, why);
+        w.delta = d->delta;
+        if (status == CV_OK)
+            status = cmp_curve_smooth(&c.shifted, &d->sampler, &w, why);
+    }
     if (status == CV_OK) {
         write_line(d->picture->data, &c.boundary, "boundary", panel);
         write_line(d->picture->data, &c.shifted, "shifted", panel);
@@ -107,7 +140,7 @@ static void begin(drawing *d, int panels)
     fprintf(s, "data = '%s.dat'\n", d->picture->name);
     fprintf(s,
             "set xlabel 'Re {/:Italic z} (dimensionless)'\nset ylabel 'Im {/:Italic z} (dimensionless)'\n");
-    fprintf(s, "set xrange [%g:%g]\nset yrange [%g:%g]\n", LEFT, RIGHT, -TOP, TOP);
+    fprintf(s, "set xrange [%g:%g]\n", LEFT, RIGHT);
     fprintf(s, "set xzeroaxis linestyle 8\nset yzeroaxis linestyle 8\nset key outside top center horizontal "
                "maxcols 2\n");
     if (panels > 1)

@@ -1,5 +1,6 @@
 #include "compare/figures.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,11 +28,14 @@ static const char HELP[] =
     "  -o DIR            the folder, made when it is missing\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
     "  --only LIST       names of the list above or numbers of the paper's figures, with commas: 6,7\n"
-    "  --damping X       curve: at eta_p = eta_b = eta_f = X (default: the first level of the file that "
-    "shows "
-    "it)\n"
-    "  --alpha X         curve: at this velocity (default: the first multiple of 0.05, or 0.01, that shows "
-    "it)\n"
+    "  --damping X       at eta_p = eta_b = eta_f = X (default: curve: the first level that shows it; map: "
+    "all "
+    "levels;\n"
+    "                    steady: 0)\n"
+    "  --alpha X         curve, steady: at this velocity (default: curve: the first multiple of 0.05, or "
+    "0.01, "
+    "that shows\n"
+    "                    it; steady: below and above the lowest true resonance velocity)\n"
     "  --mass-ratio X    curve: for this mass (default: one to either side of the crossing)\n"
     "  --format FORMAT   svg or pdf (default: both)\n"
     "  --threads N       at most N threads (default: one for each processor)\n"
@@ -219,12 +223,15 @@ static cv_status list_pictures(const plan *p, FILE *out)
 {
     cv_status status = CV_OK;
     char of[CMP_PICTURE_SHOWS];
+    int width = 0;
+    for (size_t i = 0; i < p->count; i++)
+        width = (int)fmax(width, (double)strlen(p->tasks[i].picture.name));
     for (size_t i = 0; i < p->count; i++) {
         const task *t = &p->tasks[i];
         if (t->status == CV_OK && !t->picture.absent)
-            fprintf(out, "%-20s %s\n", t->picture.name, t->picture.shows);
+            fprintf(out, "%-*s  %s\n", width, t->picture.name, t->picture.shows);
         else
-            fprintf(out, "%-20s not drawn, %s: %s\n", t->picture.name, cmp_figure_case(of, &t->figure),
+            fprintf(out, "%-*s  not drawn, %s: %s\n", width, t->picture.name, cmp_figure_case(of, &t->figure),
                     t->status == CV_OK ? t->picture.shows : t->why.text);
         if (t->status != CV_OK)
             status = CV_UNDECIDED;

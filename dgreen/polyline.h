@@ -1,5 +1,5 @@
 /* Polylines through points of a curve that is a function of the frequency, fine where the curve bends. For
- * stability_curve.c only. */
+ * stability_curve.c and for pictures. */
 #ifndef CRITVEL_DGREEN_POLYLINE_H
 #define CRITVEL_DGREEN_POLYLINE_H
 
