@@ -4,6 +4,12 @@
 
 #include "common/selection.h"
 
+/* low:high */
+typedef struct {
+    int given;
+    cv_number low, high;
+} sa_typed_range;
+
 /* Everything the command line can say; a command ignores what is not meant for it. */
 typedef struct {
     cv_selection selection;
@@ -12,6 +18,9 @@ typedef struct {
     cv_optional_number from, to, points; /* steady: where the shape is written */
     cv_optional_number depth;            /* roots: how far to the left of the imaginary axis */
     const char *times;                   /* response: list or range; NULL where not given */
+    sa_typed_range alphas, masses;       /* lines: --alpha a:b, --mass-ratio a:b */
+    int csv;                             /* lines: --format csv */
+    const char *output;                  /* lines: file to write; NULL where not given */
 } sa_options;
 
 /* As cv_work of common/cli.h. */
@@ -23,5 +32,6 @@ sa_command sa_command_resonances; /* resonance and pseudocritical velocities of 
 sa_command sa_command_steady;     /* shape of the track under a moving constant force */
 sa_command sa_command_response;   /* deflection in time after the load is switched on */
 sa_command sa_command_roots;      /* mass-induced frequencies and growth rates */
+sa_command sa_command_lines;      /* instability lines and their asymptotes */
 
 #endif
