@@ -7,7 +7,7 @@
 
 static cv_status check_range(const sa_lines_range *range, cv_message *why)
 {
-    const double most = 1e12;
+    const double most = SA_LINES_MASS_MAX;
     if (cv_number_sign(range->alpha_min) <= 0 || cv_number_compare(range->alpha_min, range->alpha_max) >= 0)
         return cv_fail(why, CV_BAD_INPUT, "the range of velocities must have 0 < alpha_min < alpha_max");
     if (cv_number_sign(range->mass_min) <= 0 || cv_number_compare(range->mass_min, range->mass_max) >= 0)
@@ -43,7 +43,7 @@ static void set_plot(sa_line_store *s)
     s->plot.log_span = log(high / low);
     s->plot.re_low = 1 / high;
     s->plot.re_high = 1 / low;
-    s->re_floor = fmin(1e-12, 0.1 / high); /* there q is so small that lines stand upright on asymptotes */
+    s->re_floor = fmin(1e-12, 0.01 / high); /* there q is so small that lines stand upright on asymptotes */
 }
 
 static cv_status store_new(sa_line_store **out, const cv_params *params, const sa_lines_range *range,

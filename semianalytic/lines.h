@@ -100,7 +100,9 @@ typedef struct {
     sa_line_store *store; /* for sa_lines_count */
 } sa_lines;
 
-/* 0 < alpha_min < alpha_max, 1e-12 <= mass_min < mass_max <= 1e12 */
+#define SA_LINES_MASS_MAX 1e10
+
+/* 0 < alpha_min < alpha_max, 1 / SA_LINES_MASS_MAX <= mass_min < mass_max <= SA_LINES_MASS_MAX */
 typedef struct {
     const cv_number *alpha_min, *alpha_max, *mass_min, *mass_max;
 } sa_lines_range;
@@ -116,7 +118,8 @@ void sa_lines_clear(sa_lines *lines);
 
 /* N(alpha, eta_M) by the lines: 2 (those that pass alpha below eta_M towards larger alpha, minus those
  * towards smaller alpha). CV_UNDECIDED: a line passes the point within double precision, or lines are
- * undecided. CV_BAD_INPUT: alpha outside the range, eta_M not positive or above 1e12. */
+ * undecided. CV_BAD_INPUT: alpha outside the range, eta_M not positive or above
+ * SA_LINES_MASS_MAX. */
 cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why);
 
 /* Puts a point on a line: one coordinate is given exactly, the other is the zero of Im zeta next to "start",

@@ -35,7 +35,7 @@ static cv_status try_vertex(sa_branch *b, const sa_line_store *store, size_t i)
     double alpha = mpfr_get_d(v->alpha, MPFR_RNDN), q = mpfr_get_d(v->q, MPFR_RNDN),
            eta_M = mpfr_get_d(v->eta_M, MPFR_RNDN);
     sa_crossings list;
-    if (v->decided != CV_OK || v->marks != 0)
+    if (v->decided != CV_OK || (v->marks & SA_MARK_TURN))
         return CV_OK;
     cv_status status = sa_crossings_find(&list, &store->map, store->field, alpha, 0.5 / eta_M, NULL);
     if (status == CV_OK && count_at(b, &list, eta_M, q)) {
@@ -110,8 +110,8 @@ cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M
     int sum = 0;
     if (!(alpha >= store->map.curves.alpha_min && alpha <= store->map.curves.alpha_max))
         return cv_fail(why, CV_BAD_INPUT, "alpha = %.15g is outside the range of the lines", alpha);
-    if (!(eta_M > 0 && eta_M <= 1e12))
-        return cv_fail(why, CV_BAD_INPUT, "eta_M must be above 0 and at most 1e12");
+    if (!(eta_M > 0 && eta_M <= SA_LINES_MASS_MAX))
+        return cv_fail(why, CV_BAD_INPUT, "eta_M must be above 0 and at most %g", SA_LINES_MASS_MAX);
     for (size_t i = 0; i < lines->line_count; ++i) {
         const sa_line *line = &store->line[i];
         const sa_line_sample *s = &store->samples.item[line->first];

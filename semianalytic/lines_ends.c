@@ -22,20 +22,41 @@ cv_status sa_lines_doubt(sa_lines *lines, double alpha, double q, const char *wh
     return sa_line_place_add(&lines->place, &lines->place_count, alpha, q);
 }
 
-/* Newton's step to zeta = 0. Towards q = 0, where Re zeta ~ q^2, it goes half the way. Where zeta is steep,
- * doubles leave more than the floor of it: then the step must be as small as their spacing. */
-static int near_zero(sa_line_end *end, const sa_line_sample *s, int at_floor)
+/* Newton's iteration in (alpha, q) to zeta = 0 from the end of a line. 1: there is one near. */
+static int near_zero(sa_line_end *end, const sa_line_store *store, const sa_line_sample *s)
 {
-    const double spacing = 1e-13, step = at_floor ? 0.25 : spacing;
+    enum { STEPS = 20 };
+    const double reach = 0.5, converged = 1e-9, spacing = 1e-14;
+    double alpha = s->alpha, q = s->q;
+    for (int i = 0; i < STEPS; ++i) {
+        sa_value v;
+        if (sa_zeta_adaptive(&v, store->sweep, store->track, alpha, q, 0.01) != CV_OK)
+            return 0;
+        double det = creal(v.d_alpha) * cimag(v.d_q) - creal(v.d_q) * cimag(v.d_alpha);
+        double d_alpha = (v.im * creal(v.d_q) - v.re * cimag(v.d_q)) / det;
+        double d_q = (v.re * cimag(v.d_alpha) - v.im * creal(v.d_alpha)) / det;
+        alpha += d_alpha;
+        q += d_q;
+        if (!(fabs(q - s->q) < reach * s->q && fabs(alpha - s->alpha) < reach * s->alpha))
+            return 0;
+        if (fabs(d_q) > fmax(converged * q, spacing) || fabs(d_alpha) > fmax(converged * alpha, spacing))
+            continue;
+        end->kind = SA_END_MASS_HIGH;
+        end->beyond = SA_BEYOND_ZERO;
+        end->zero_alpha = alpha;
+        end->zero_q = q;
+        return 1;
+    }
+    return 0;
+}
+
+/* Where zeta is steep, doubles leave more than the floor of it at a zero: a step of their spacing leads
+ * there. */
+static int at_zero(const sa_line_sample *s)
+{
+    const double spacing = 1e-14;
     double det = s->re_alpha * s->im_q - s->re_q * s->im_alpha;
-    double d_alpha = -s->re * s->im_q / det, d_q = s->re * s->im_alpha / det;
-    if (!(fabs(d_q) < step * s->q && fabs(d_alpha) < step * s->alpha))
-        return 0;
-    end->kind = SA_END_MASS_HIGH;
-    end->beyond = SA_BEYOND_ZERO;
-    end->zero_alpha = s->alpha + d_alpha;
-    end->zero_q = s->q + d_q;
-    return 1;
+    return fabs(s->re * s->im_q / det) < spacing && fabs(s->re * s->im_alpha / det) < spacing;
 }
 
 static int same_velocity(double a, double b)
@@ -52,44 +73,64 @@ static void classify(sa_line_end *end, const sa_line_store *store, const sa_line
         end->kind = SA_END_ALPHA_LOW;
     else if (same_velocity(s->alpha, store->map.curves.alpha_max))
         end->kind = SA_END_ALPHA_HIGH;
-    else if (!near_zero(end, s, at_floor) && at_floor)
+    else if ((at_floor || at_zero(s)) && !near_zero(end, store, s) && at_floor)
         end->kind = SA_END_MASS_HIGH;
 }
 
-/* Follows a line beyond the floor, q changing by a factor at each step, until Re zeta is negative (*zero: 1)
- * or above the floor again or q tiny (0). */
-static cv_status follow(int *zero, double *alpha, double *q, const sa_line_store *store, double factor)
+/* A line followed beyond the floor: alpha as a function of log q. */
+typedef struct {
+    double alpha, q, slope; /* d alpha / d log q */
+    double eta_M;
+} runner;
+
+/* One step of the logarithm of q; 1 when the line is where its slope says, 0 when the step was too long. */
+static cv_status run(int *on_line, runner *r, const sa_line_store *store, double step)
 {
-    const double smallest = 1e-3 * sqrt(store->re_floor);
-    double eta_M = INFINITY;
-    cv_status status = CV_OK;
-    while (status == CV_OK && eta_M > 1 / store->re_floor && *q >= smallest) {
-        sa_line_vertex v;
-        mpfr_t exact_q;
-        int rises;
-        *q *= factor;
-        mpfr_init_set_d(exact_q, *q, MPFR_RNDN);
-        status = sa_line_point(&v, &rises, store->sweep, store->track, SA_GIVEN_Q, exact_q, *alpha, 8);
-        if (status == CV_OK && v.decided != CV_OK)
-            status = CV_UNDECIDED;
-        *alpha = mpfr_get_d(v.alpha, MPFR_RNDN);
-        eta_M = mpfr_get_d(v.eta_M, MPFR_RNDN);
-        sa_line_vertex_clear(&v);
-        mpfr_clear(exact_q);
+    const double bend = 0.3, least = 1e-9;
+    const double q = r->q * exp(step), expected = r->alpha + r->slope * step;
+    sa_line_vertex v;
+    mpfr_t exact_q;
+    int rises;
+    *on_line = 0;
+    if (!(expected > 0))
+        return CV_OK;
+    mpfr_init_set_d(exact_q, q, MPFR_RNDN);
+    cv_status status =
+        sa_line_point(&v, &rises, store->sweep, store->track, SA_GIVEN_Q, exact_q, expected, 8);
+    double alpha = mpfr_get_d(v.alpha, MPFR_RNDN), eta_M = mpfr_get_d(v.eta_M, MPFR_RNDN);
+    int near = fabs(alpha - expected) < bend * fabs(r->slope * step) + least * alpha;
+    if (status == CV_OK && v.decided == CV_OK && near) {
+        *r = (runner){alpha, q, (alpha - r->alpha) / step, eta_M};
+        *on_line = 1;
     }
-    *zero = status == CV_OK && eta_M < 0;
-    return status == CV_FAILED ? status : CV_OK;
+    sa_line_vertex_clear(&v);
+    mpfr_clear(exact_q);
+    return status;
 }
 
-/* Steps of follow() */
-static const double growth = 1.1;
+/* Follows a line beyond the floor, log q growing (1) or falling (-1), until Re zeta is negative (*zero: 1) or
+ * above the floor again, or q tiny, or the line lost (0). */
+static cv_status follow(int *zero, runner *r, const sa_line_store *store, int direction)
+{
+    const double smallest = 1e-4 * sqrt(store->re_floor), shortest = 1e-6, longest = 0.3;
+    double step = 0.02;
+    cv_status status = CV_OK;
+    r->eta_M = INFINITY;
+    while (status == CV_OK && r->eta_M > 1 / store->re_floor && r->q >= smallest && step > shortest) {
+        int on_line;
+        status = run(&on_line, r, store, direction * step);
+        step = on_line ? fmin(1.5 * step, longest) : step / 4;
+    }
+    *zero = status == CV_OK && r->eta_M < 0;
+    return status;
+}
 
 /* The line of an asymptote may stay above the largest eta_M until Re zeta becomes negative: K(0, 0) is tiny
  * there. */
 static cv_status stays_above(int *above, const sa_line_store *store, const sa_asymptote *a)
 {
-    double alpha = mpfr_get_d(a->alpha, MPFR_RNDN), q = 1e-3 * sqrt(store->re_floor);
-    return follow(above, &alpha, &q, store, growth);
+    runner r = {.alpha = mpfr_get_d(a->alpha, MPFR_RNDN), .q = 1e-3 * sqrt(store->re_floor)};
+    return follow(above, &r, store, 1);
 }
 
 static int by_alpha(const void *left, const void *right)
@@ -136,20 +177,37 @@ static cv_status match(sa_lines *lines, const descent *d, size_t count)
     return status;
 }
 
-/* A line that has sunk to the floor without an asymptote there: does it come to a zero of zeta? */
-static cv_status sink(sa_lines *lines, sa_line_end *end, const sa_line_sample *last,
+/* The runner has come back to the floor at the other end of its own line: it is closed. */
+static int comes_round(const sa_line_store *store, size_t number, int at, const runner *r)
+{
+    const double reach = 0.7;
+    const sa_line *line = &store->line[number];
+    const sa_line_sample *s = &store->samples.item[line->first + (at == 0 ? line->count - 1 : 0)];
+    const sa_line_end *end = &store->end[number][!at];
+    return end->kind == SA_END_MASS_HIGH && end->beyond == SA_BEYOND_NOTHING &&
+           fabs(log(s->q / r->q)) < reach && fabs(s->alpha - r->alpha) < reach * fabs(r->slope) + 1e-9;
+}
+
+/* A line that has sunk to the floor without an asymptote there: it may come to a zero of zeta, or rise again
+ * and close. */
+static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_sample *last,
                       const sa_line_sample *before)
 {
     int zero;
-    double alpha = last->alpha, q = last->q;
-    cv_status status = follow(&zero, &alpha, &q, lines->store, q > before->q ? growth : 1 / growth);
+    runner r = {last->alpha, last->q, -last->im_q * last->q / last->im_alpha, 0};
+    cv_status status = follow(&zero, &r, lines->store, last->q > before->q ? 1 : -1);
+    sa_line_end *end = &lines->store->end[number][at];
     if (status != CV_OK)
         return status;
-    if (!zero)
+    if (zero) {
+        end->beyond = SA_BEYOND_ZERO;
+        end->zero_alpha = r.alpha;
+        end->zero_q = r.q;
+    } else if (r.eta_M <= 1 / lines->store->re_floor && comes_round(lines->store, number, at, &r)) {
+        lines->store->line[number].closed = 1;
+    } else {
         return sa_lines_doubt(lines, last->alpha, last->q, "a line without an asymptote");
-    end->beyond = SA_BEYOND_ZERO;
-    end->zero_alpha = alpha;
-    end->zero_q = q;
+    }
     return CV_OK;
 }
 
@@ -162,7 +220,7 @@ static cv_status settle(sa_lines *lines, size_t number, int at)
     if (end->kind == SA_END_UNDECIDED)
         return sa_lines_doubt(lines, s->alpha, s->q, "a line ends");
     if (end->kind == SA_END_MASS_HIGH && end->beyond == SA_BEYOND_NOTHING)
-        return sink(lines, end, s, at == 0 ? s + 1 : s - 1);
+        return sink(lines, number, at, s, at == 0 ? s + 1 : s - 1);
     return CV_OK;
 }
 

@@ -86,9 +86,11 @@ static cv_status approach(parabola *p, double scale, double tolerance, double *l
     for (int i = 0, narrowed = 0; i < STEPS; ++i) {
         mpfr_set_d(p->h, scale * width, MPFR_RNDN);
         cv_status status = fit(p);
-        if (status != CV_OK)
+        if (status == CV_FAILED)
             return status;
-        if (!move(p))
+        if (status != CV_OK)
+            width /= 8; /* the line bends too much over this width */
+        if (status != CV_OK || !move(p))
             continue;
         *left = last_change(p);
         if (narrowed++ && *left < tolerance)
