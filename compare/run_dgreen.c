@@ -67,7 +67,7 @@ static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t 
     if (found == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
     cv_status status = dg_find_transitions(found, &cost, &h->params, &h->alpha_min, &h->alpha_max, mass_count,
-                                           mass_ratios, digits, why);
+                                           mass_ratios, digits, 0, why);
     if (status == CV_UNDECIDED) {
         for (size_t i = 0; i < mass_count; i++) {
             lists[i].status = CV_UNDECIDED;

@@ -79,7 +79,7 @@ static double step_at(const dg_station *at, double q, double part)
 /* The first nodes, from q_first to q_last. */
 static cv_status lay_nodes(dg_curve *c, const dg_probe *p, double q_first, double q_last, cv_message *why)
 {
-    const double part = pow(10, 1.0 / PER_DECADE) - 1;
+    const double part = pow(10, 1.0 / ldexp(PER_DECADE, p->look)) - 1;
     cv_status status = dg_curve_add(c, p, q_first, why);
     for (double q = q_first; q < q_last && status == CV_OK;) {
         q += step_at(&c->at, q, part);

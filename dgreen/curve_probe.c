@@ -9,9 +9,18 @@ static const double Q_STEP = 1e-4, ALPHA_STEP = 1e-3;
  * steps in alpha, up to this part. */
 static const double Q_NOISE = 1e-14, LONGEST_ALPHA_STEP = 0.02;
 
+/* Largest error of Re zeta relative to |zeta|, so that the curve in double passes every 1/eta_M on its side
+ */
+static const double RE_TOLERANCE = 1e-3;
+
 static int is_certain(const dg_value *v)
 {
     return v->im_error < fabs(v->im);
+}
+
+static int is_coarse(const dg_value *v)
+{
+    return !(v->re_error <= RE_TOLERANCE * hypot(v->re, v->im));
 }
 
 cv_status dg_probe_at(dg_node *node, const dg_probe *p, double alpha, double q)
@@ -26,12 +35,24 @@ cv_status dg_probe_at(dg_node *node, const dg_probe *p, double alpha, double q)
     return status;
 }
 
+cv_status dg_probe_sharpen(dg_node *node, const dg_probe *p, double alpha)
+{
+    dg_value v;
+    const double size = hypot(node->re, node->im), tol_re = RE_TOLERANCE * size / fabs(node->re);
+    if (node->re_error <= RE_TOLERANCE * size)
+        return CV_OK;
+    const cv_status status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, CMPLX(0, node->q), tol_re, 0.5);
+    if (status == CV_OK)
+        *node = (dg_node){node->q, v.re, v.im, v.re_error};
+    return status;
+}
+
 cv_status dg_probe_value(dg_node *node, int *certain, const dg_probe *p, double alpha, double q)
 {
     dg_value v;
     const double complex qbar = CMPLX(0, q);
     cv_status status = dg_zeta_double(&v, p->follow, p->track, alpha, qbar);
-    if (status == CV_UNDECIDED)
+    if (status == CV_UNDECIDED || (status == CV_OK && is_coarse(&v)))
         status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, qbar, 1e-10, INFINITY);
     if (status == CV_OK) {
         *certain = is_certain(&v);

@@ -15,12 +15,19 @@ typedef struct {
     const dg_track *track;
     dg_follow *follow;
     const dg_branch_curves *branches;
+    int look; /* how closely curves are looked at: 0 is normal, each further one halves the spacing of the
+                 first nodes and what passes for smooth */
 } dg_probe;
 
 /* CV_UNDECIDED: the largest precision cannot tell the sign of Im zeta at these doubles. */
 cv_status dg_probe_at(dg_node *node, const dg_probe *p, double alpha, double q);
 
-/* The same without a promise about the sign, and cheaper close to a zero of Im zeta; *certain tells. */
+/* Makes re_error small beside |zeta| when it is not: next to a branch point double tells the sign of Im zeta
+ * long before Re zeta. */
+cv_status dg_probe_sharpen(dg_node *node, const dg_probe *p, double alpha);
+
+/* The same as dg_probe_at without a promise about the sign, and cheaper close to a zero of Im zeta; *certain
+ * tells. */
 cv_status dg_probe_value(dg_node *node, int *certain, const dg_probe *p, double alpha, double q);
 
 /* Derivatives of zeta at fixed distance from the nearest branch point, whose frequency moves with alpha at

@@ -139,6 +139,16 @@ static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_mess
     return status;
 }
 
+/* Both ends of the interval after node i, unless they are below the floor for certain */
+static cv_status sharpen(dg_curve *c, const dg_probe *p, size_t i)
+{
+    dg_node *a = &c->nodes[i], *b = a + 1;
+    if (a->re + a->re_error < c->x_floor && b->re + b->re_error < c->x_floor)
+        return CV_OK;
+    const cv_status status = dg_probe_sharpen(a, p, c->at.alpha);
+    return status == CV_OK ? dg_probe_sharpen(b, p, c->at.alpha) : status;
+}
+
 /* Whether zeta may exceed the floor near the interval after node i */
 static int relevant(const dg_curve *c, size_t i, size_t n)
 {
@@ -157,7 +167,8 @@ cv_status dg_curve_list(dg_curve *c, const dg_probe *p, cv_message *why)
     for (size_t i = 0; i + 1 < n && status == CV_OK; i++) {
         const dg_node *a = &c->nodes[i];
         if (positive(a) != positive(a + 1)) {
-            if (relevant(c, i, n))
+            status = sharpen(c, p, i);
+            if (status == CV_OK && relevant(c, i, n))
                 status = list_crossing(c, p, i, why);
         } else if (i > 0 && a->re > c->x_floor && positive(a - 1) == positive(a) &&
                    fabs(a->im) < fmin(fabs(a[-1].im), fabs(a[1].im)) && fabs(a->im) < 3 * a->re) {

@@ -43,7 +43,7 @@ static cv_status search(dg_line_graph *g)
     dg_velocities v = {0};
     dg_line_column columns[2];
     memset(columns, 0, sizeof columns);
-    cv_status status = dg_velocities_choose(&v, g->probe.branches, g->alpha_min, g->alpha_max, g->why);
+    cv_status status = dg_velocities_choose(&v, g->probe.branches, g->alpha_min, g->alpha_max, 0, g->why);
     if (status == CV_OK)
         status = walk(g, &v, columns);
     if (status == CV_OK)
@@ -66,7 +66,7 @@ static cv_status prepare_and_search(dg_line_graph *g, const cv_params *params)
         status = dg_follow_new(&follow, g->why);
     if (status == CV_OK)
         status = dg_branch_curves_new(&branches, track, g->alpha_min, g->alpha_max, g->why);
-    g->probe = (dg_probe){track, follow, branches};
+    g->probe = (dg_probe){track, follow, branches, 0};
     if (status == CV_OK)
         status = search(g);
     dg_branch_curves_free(branches);

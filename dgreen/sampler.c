@@ -48,7 +48,7 @@ void dg_sampler_clear(dg_sampler *s)
 
 dg_probe dg_sampler_probe(const dg_sampler *s)
 {
-    return (dg_probe){s->track, s->follow, s->branches};
+    return (dg_probe){s->track, s->follow, s->branches, 0};
 }
 
 /* zeta ~ C/sqrt(q - q_b): what passes the real axis next to q_b, as near as that is known in double, passes

@@ -3,145 +3,171 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dgreen/transitions_refine.h"
+#include "dgreen/transitions_check.h"
+#include "dgreen/transitions_list.h"
 #include "dgreen/transitions_sweep.h"
 
 /* The curves are listed down to this part of the smallest 1/eta_M. */
 static const double FLOOR = 0.3;
 
-void dg_transition_list_clear(dg_transition_list *list)
-{
-    for (size_t i = 0; i < list->count; i++)
-        mpfr_clears(list->items[i].alpha, list->items[i].frequency, (mpfr_ptr)NULL);
-    free(list->items);
-    memset(list, 0, sizeof *list);
-}
+typedef struct {
+    dg_probe probe;
+    dg_track *track;
+    dg_branch_curves *branches;
+    double alpha_min, alpha_max;
+    size_t count; /* mass ratios, and what belongs to each */
+    const cv_number *mass_ratios;
+    dg_transition_list *lists;
+    double *x; /* 1/eta_M */
+    double x_floor;
+    int digits;
+    dg_effort *effort;
+    cv_message *why;
+} finder;
 
-static int ascending(const void *a, const void *b)
+static cv_status finder_init(finder *f, const cv_params *params)
 {
-    return mpfr_cmp(((const dg_transition *)a)->alpha, ((const dg_transition *)b)->alpha);
-}
-
-static void doubt(dg_transition_list *list, const char *reason, mpfr_srcptr alpha)
-{
-    if (list->status == CV_OK)
-        list->status =
-            cv_fail(&list->why, CV_UNDECIDED, "%s near alpha = %.17g", reason, mpfr_get_d(alpha, MPFR_RNDN));
-}
-
-/* Orders the transitions and counts along them. The change of each is carried in count_above. */
-static void count_along(dg_transition_list *list)
-{
-    int count = list->count_at_min;
-    if (list->count > 0)
-        qsort(list->items, list->count, sizeof *list->items, ascending);
-    for (size_t i = 0; i < list->count; i++) {
-        dg_transition *t = &list->items[i];
-        t->count_below = count;
-        t->count_above += count;
-        count = t->count_above;
-        if (t->decided != CV_OK)
-            doubt(list, "transition not confirmed to the digits asked for", t->alpha);
-        if (count < 0)
-            doubt(list, "negative number of unstable roots", t->alpha);
-        if (i > 0) {
-            mpfr_t gap;
-            mpfr_init2(gap, mpfr_get_prec(t->alpha));
-            mpfr_sub(gap, t->alpha, t[-1].alpha, MPFR_RNDD);
-            if (!(mpfr_cmp_d(gap, t->alpha_error + t[-1].alpha_error) > 0))
-                doubt(list, "transitions that cannot be told apart", t->alpha);
-            mpfr_clear(gap);
-        }
+    f->x = calloc(f->count, sizeof *f->x);
+    if (f->x == NULL)
+        return cv_fail(f->why, CV_FAILED, "out of memory");
+    for (size_t k = 0; k < f->count; k++) {
+        f->x[k] = 1 / cv_number_get_double(&f->mass_ratios[k]);
+        f->x_floor = k == 0 || f->x[k] * FLOOR < f->x_floor ? f->x[k] * FLOOR : f->x_floor;
+        f->lists[k].status = CV_UNDECIDED;
     }
+    cv_status status = dg_track_new(&f->track, params, f->why);
+    if (status == CV_OK)
+        status = dg_follow_new(&f->probe.follow, f->why);
+    if (status == CV_OK)
+        status = dg_branch_curves_new(&f->branches, f->track, f->alpha_min, f->alpha_max, f->why);
+    f->probe.track = f->track;
+    f->probe.branches = f->branches;
+    return status;
 }
 
-/* The list of one mass ratio from what the search in double found. */
-static cv_status finish(dg_transition_list *list, dg_effort *effort, const dg_track *track,
-                        const dg_mass *mass, const cv_number *mass_ratio, int digits, cv_message *why)
+static void finder_clear(finder *f)
 {
-    list->count_at_min = mass->count_at_min;
-    list->status = mass->status;
-    list->why = mass->why;
-    if (mass->count == 0)
-        return CV_OK;
-    list->items = calloc(mass->count, sizeof *list->items);
-    if (list->items == NULL)
-        return cv_fail(why, CV_FAILED, "out of memory");
-    for (size_t i = 0; i < mass->count; i++) {
-        dg_transition *t = &list->items[list->count++];
-        mpfr_inits2(53, t->alpha, t->frequency, (mpfr_ptr)NULL);
-        const cv_status status = dg_refine(t, effort, track, &mass->finds[i], mass_ratio, digits);
-        if (status != CV_OK && status != CV_UNDECIDED)
-            return cv_fail(why, status, "refinement of a transition failed");
-        t->count_above = mass->finds[i].change;
-    }
-    count_along(list);
-    return CV_OK;
+    free(f->x);
+    dg_branch_curves_free(f->branches);
+    dg_follow_free(f->probe.follow);
+    dg_track_free(f->track);
 }
 
-static cv_status set_masses(dg_sweep *s, size_t mass_count, const cv_number *mass_ratios)
+/* The mass ratios without a decided list */
+static cv_status sweep_init(dg_sweep *s, const finder *f)
 {
-    s->masses = calloc(mass_count, sizeof *s->masses);
+    *s = (dg_sweep){.probe = f->probe, .x_floor = f->x_floor, .why = f->why};
+    s->masses = calloc(f->count, sizeof *s->masses);
     if (s->masses == NULL)
-        return cv_fail(s->why, CV_FAILED, "out of memory");
-    s->mass_count = mass_count;
-    for (size_t k = 0; k < mass_count; k++) {
-        const double x = 1 / cv_number_get_double(&mass_ratios[k]);
-        s->masses[k].x = x;
-        s->x_roof = k == 0 || x > s->x_roof ? x : s->x_roof;
-        s->x_floor = k == 0 || x * FLOOR < s->x_floor ? x * FLOOR : s->x_floor;
+        return cv_fail(f->why, CV_FAILED, "out of memory");
+    for (size_t k = 0; k < f->count; k++) {
+        const double x = f->x[k];
+        if (f->lists[k].status == CV_OK)
+            continue;
+        s->x_roof = s->mass_count == 0 || x > s->x_roof ? x : s->x_roof;
+        s->masses[s->mass_count++].x = x;
     }
     return CV_OK;
 }
 
-static void sweep_clear(dg_sweep *s, dg_branch_curves *branches, dg_track *track)
+static void sweep_clear(dg_sweep *s)
 {
     for (size_t k = 0; k < s->mass_count; k++)
         free(s->masses[k].finds);
     free(s->masses);
-    dg_branch_curves_free(branches);
-    dg_follow_free(s->probe.follow);
-    dg_track_free(track);
 }
 
-static cv_status search(dg_sweep *s, dg_track **track, dg_branch_curves **branches, const cv_params *params,
-                        double alpha_min, double alpha_max)
+/* New lists in place of those that are not decided */
+static cv_status fill_lists(finder *f, const dg_sweep *s)
 {
-    cv_status status = dg_track_new(track, params, s->why);
-    s->probe.track = *track;
+    cv_status status = CV_OK;
+    size_t m = 0;
+    for (size_t k = 0; k < f->count && status == CV_OK; k++) {
+        dg_transition_list *list = &f->lists[k];
+        if (list->status == CV_OK)
+            continue;
+        dg_transition_list_clear(list);
+        status =
+            dg_list_fill(list, f->effort, f->track, &s->masses[m++], &f->mass_ratios[k], f->digits, f->why);
+    }
+    return status;
+}
+
+/* Nothing is left of an undecided list but the reason why a curve could not be had. */
+static void give_up(finder *f)
+{
+    for (size_t k = 0; k < f->count; k++)
+        if (f->lists[k].status != CV_OK) {
+            dg_transition_list_clear(&f->lists[k]);
+            f->lists[k].status = CV_UNDECIDED;
+            f->lists[k].why = *f->why;
+        }
+    f->why->text[0] = '\0';
+}
+
+/* One search as f->probe.look says, for the mass ratios whose lists are not decided. */
+static cv_status look(finder *f)
+{
+    dg_sweep s;
+    cv_status status = sweep_init(&s, f);
     if (status == CV_OK)
-        status = dg_follow_new(&s->probe.follow, s->why);
+        status = dg_sweep_run(&s, f->alpha_min, f->alpha_max);
     if (status == CV_OK)
-        status = dg_branch_curves_new(branches, *track, alpha_min, alpha_max, s->why);
-    s->probe.branches = *branches;
-    return status == CV_OK ? dg_sweep_run(s, alpha_min, alpha_max) : status;
+        status = fill_lists(f, &s);
+    else if (status == CV_UNDECIDED)
+        give_up(f);
+    dg_probe closer = f->probe;
+    closer.look++;
+    if (status == CV_OK)
+        status =
+            dg_check_lists(f->lists, f->count, f->x, f->x_floor, &closer, f->alpha_min, f->alpha_max, f->why);
+    sweep_clear(&s);
+    return status == CV_UNDECIDED ? CV_OK : status;
+}
+
+static int all_decided(const finder *f)
+{
+    size_t k = 0;
+    while (k < f->count && f->lists[k].status == CV_OK)
+        k++;
+    return k == f->count;
+}
+
+static void add_effort(dg_effort *effort, const dg_follow *follow)
+{
+    const dg_counters c = dg_follow_counters(follow);
+    effort->evaluations += c.evaluations;
+    effort->above_double += c.above_double;
+    if (c.largest_precision > effort->largest_precision)
+        effort->largest_precision = c.largest_precision;
 }
 
 cv_status dg_find_transitions(dg_transition_list *lists, dg_effort *effort, const cv_params *params,
                               const cv_number *alpha_min, const cv_number *alpha_max, size_t mass_count,
-                              const cv_number *mass_ratios, int digits, cv_message *why)
+                              const cv_number *mass_ratios, int digits, int first_look, cv_message *why)
 {
-    dg_effort unused, *used = effort ? effort : &unused;
-    dg_sweep s = {.why = why};
-    dg_track *track = NULL;
-    dg_branch_curves *branches = NULL;
+    dg_effort unused;
+    finder f = {.alpha_min = cv_number_get_double(alpha_min),
+                .alpha_max = cv_number_get_double(alpha_max),
+                .count = mass_count,
+                .mass_ratios = mass_ratios,
+                .lists = lists,
+                .digits = digits,
+                .effort = effort ? effort : &unused,
+                .why = why};
     memset(lists, 0, mass_count * sizeof *lists);
-    *used = (dg_effort){0};
+    *f.effort = (dg_effort){0};
     if (cv_params_undamped(params))
         return cv_fail(why, CV_BAD_INPUT, "transitions need damping: all damping ratios are zero");
-    cv_status status = set_masses(&s, mass_count, mass_ratios);
-    if (status == CV_OK)
-        status = search(&s, &track, &branches, params, cv_number_get_double(alpha_min),
-                        cv_number_get_double(alpha_max));
-    if (status == CV_OK) {
-        const dg_counters c = dg_follow_counters(s.probe.follow);
-        *used = (dg_effort){c.evaluations, c.above_double, c.largest_precision};
+    cv_status status = finder_init(&f, params);
+    for (int i = 0; i <= DG_MORE_LOOKS && status == CV_OK && !all_decided(&f); i++) {
+        f.probe.look = first_look + i;
+        status = look(&f);
     }
-    for (size_t k = 0; k < mass_count && status == CV_OK; k++)
-        status = finish(&lists[k], used, track, &s.masses[k], &mass_ratios[k], digits, why);
-    if (status != CV_OK)
-        for (size_t k = 0; k < mass_count; k++)
-            dg_transition_list_clear(&lists[k]);
-    sweep_clear(&s, branches, track);
+    if (status == CV_OK)
+        add_effort(f.effort, f.probe.follow);
+    for (size_t k = 0; k < mass_count && status != CV_OK; k++)
+        dg_transition_list_clear(&lists[k]);
+    finder_clear(&f);
     return status;
 }

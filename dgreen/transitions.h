@@ -35,6 +35,8 @@ typedef struct {
     cv_message why;
 } dg_transition_list;
 
+enum { DG_LOOK_MAX = 4, DG_MORE_LOOKS = 2 };
+
 typedef struct {
     unsigned long evaluations;  /* of zeta, at any precision */
     unsigned long above_double; /* those that needed more than double */
@@ -42,13 +44,19 @@ typedef struct {
 } dg_effort;
 
 /* Fills lists[0 .. mass_count-1], one per mass ratio (each > 0), for 0 < alpha_min < alpha_max; relative
- * errors of alpha and q below 10^-digits. params must have passed cv_params_check. effort may be NULL. What
- * cannot be decided is said in the lists; the status returned is CV_OK then, too. CV_BAD_INPUT: all dampings
- * are zero. CV_UNDECIDED: one of the curves could not be evaluated at all. CV_FAILED: out of memory. Unless
- * CV_OK is returned no list holds anything. Reentrant. */
+ * errors of alpha and q below 10^-digits. params must have passed cv_params_check. effort may be NULL.
+ *
+ * first_look: how dense the search begins, 0 .. DG_LOOK_MAX. 0 is normal; each further one halves the first
+ * steps in alpha and in q and what passes for smooth, and about doubles the cost. A list that does not hold
+ * (a negative count, crossings that cannot be paired, another count by the winding between two of its
+ * transitions) is dropped and its mass ratio searched again, up to DG_MORE_LOOKS looks closer; only then it
+ * is undecided.
+ *
+ * What cannot be decided is said in the lists; the status returned is CV_OK then, too. CV_BAD_INPUT: all
+ * dampings are zero. CV_FAILED: out of memory. Unless CV_OK is returned no list holds anything. Reentrant. */
 cv_status dg_find_transitions(dg_transition_list *lists, dg_effort *effort, const cv_params *params,
                               const cv_number *alpha_min, const cv_number *alpha_max, size_t mass_count,
-                              const cv_number *mass_ratios, int digits, cv_message *why);
+                              const cv_number *mass_ratios, int digits, int first_look, cv_message *why);
 
 void dg_transition_list_clear(dg_transition_list *list);
 

@@ -91,11 +91,12 @@ static int unpaired_matter(const dg_curve *c, const int *partner, double x)
  * curvature, at an x that matters. */
 static int dip_matters(const dg_sweep *s, const dg_curve *c, double distance)
 {
+    const double safety = ldexp(DIP_SAFETY, s->probe.look), reach = ldexp(REACH, s->probe.look);
     for (size_t i = 0; i < c->dip_count; i++) {
         const dg_dip *d = &c->dips[i];
-        if (!(fabs(d->im) > DIP_SAFETY * fabs(d->d_im * distance)))
+        if (!(fabs(d->im) > safety * fabs(d->d_im * distance)))
             for (size_t k = 0; k < s->mass_count; k++)
-                if (d->re < REACH * s->masses[k].x && d->re > s->masses[k].x / REACH)
+                if (d->re < reach * s->masses[k].x && d->re > s->masses[k].x / reach)
                     return 1;
     }
     return 0;

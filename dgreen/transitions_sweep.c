@@ -73,7 +73,8 @@ cv_status dg_sweep_run(dg_sweep *s, double alpha_min, double alpha_max)
     dg_velocities v = {0};
     dg_curve curves[2];
     memset(curves, 0, sizeof curves);
-    cv_status status = dg_velocities_choose(&v, s->probe.branches, alpha_min, alpha_max, s->why);
+    cv_status status =
+        dg_velocities_choose(&v, s->probe.branches, alpha_min, alpha_max, s->probe.look, s->why);
     if (status == CV_OK)
         status = walk(s, &v, curves);
     dg_curve_clear(&curves[0]);

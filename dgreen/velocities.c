@@ -23,9 +23,9 @@ static cv_status push(dg_velocities *v, double alpha, cv_message *why)
 }
 
 static cv_status push_graded(dg_velocities *v, const dg_special_velocity *s, double low, double high,
-                             cv_message *why)
+                             int look, cv_message *why)
 {
-    const double ratio = pow(10, 1.0 / PER_DECADE);
+    const double ratio = pow(10, 1.0 / ldexp(PER_DECADE, look));
     cv_status status = CV_OK;
     for (double d = fmax(FIRST * s->width, 4e-16 * s->alpha); d < high - low && status == CV_OK; d *= ratio) {
         if (s->alpha - d > low)
@@ -43,18 +43,19 @@ static int ascending(const void *a, const void *b)
 }
 
 cv_status dg_velocities_choose(dg_velocities *v, const dg_branch_curves *branches, double alpha_min,
-                               double alpha_max, cv_message *why)
+                               double alpha_max, int look, cv_message *why)
 {
     size_t n;
     const dg_special_velocity *special = dg_special_velocities(&n, branches);
-    const double range = RANGE_STEP * (alpha_max - alpha_min);
+    const double range = ldexp(RANGE_STEP, -look) * (alpha_max - alpha_min);
+    const double relative = ldexp(RELATIVE_STEP, -look);
     cv_status status = push(v, alpha_max, why);
-    for (double a = alpha_min; a < alpha_max && status == CV_OK; a += fmin(RELATIVE_STEP * a, range))
+    for (double a = alpha_min; a < alpha_max && status == CV_OK; a += fmin(relative * a, range))
         status = push(v, a, why);
     for (size_t i = 0; i < n && status == CV_OK; i++) {
         const double low = i > 0 ? (special[i - 1].alpha + special[i].alpha) / 2 : alpha_min;
         const double high = i + 1 < n ? (special[i + 1].alpha + special[i].alpha) / 2 : alpha_max;
-        status = push_graded(v, &special[i], low, high, why);
+        status = push_graded(v, &special[i], low, high, look, why);
     }
     qsort(v->at, v->count, sizeof *v->at, ascending);
     size_t kept = 0;

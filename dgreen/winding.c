@@ -27,8 +27,8 @@ static double turn(int *passes, const dg_node *a, const dg_node *b, double x)
 {
     const double one = x - a->re, other = x - b->re, across = a->im * b->im + one * other;
     const double up = one * -b->im - other * -a->im;
-    const double doubt = fmax(a->re_error, b->re_error);
-    if ((a->im > 0) != (b->im > 0) && !(fabs(up) > doubt * (fabs(a->im) + fabs(b->im))))
+    const double doubt = a->re_error * fabs(b->im) + b->re_error * fabs(a->im);
+    if ((a->im > 0) != (b->im > 0) && !(fabs(up) > doubt))
         *passes = 1;
     return atan2(up, across);
 }

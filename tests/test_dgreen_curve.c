@@ -25,7 +25,7 @@ static bench bench_open(dg_track *t)
     if (dg_follow_new(&b.follow, NULL) != CV_OK ||
         dg_branch_curves_new(&b.branches, t, 0.02, 2, NULL) != CV_OK)
         abort();
-    b.probe = (dg_probe){t, b.follow, b.branches};
+    b.probe = (dg_probe){t, b.follow, b.branches, 0};
     return b;
 }
 

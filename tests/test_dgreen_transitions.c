@@ -32,7 +32,7 @@ static void search_run(search *s, const cv_params *p, double low, double high, i
     set_decimal(&s->low, low);
     set_decimal(&s->high, high);
     const cv_status status =
-        dg_find_transitions(s->lists, &s->effort, p, &s->low, &s->high, MASSES, s->masses, digits, &why);
+        dg_find_transitions(s->lists, &s->effort, p, &s->low, &s->high, MASSES, s->masses, digits, 0, &why);
     ck_assert_msg(status == CV_OK, "%s", why.text);
     for (int i = 0; i < MASSES; i++)
         ck_assert_msg(s->lists[i].status == CV_OK, "%s", s->lists[i].why.text);
@@ -224,7 +224,7 @@ START_TEST(undamped_is_refused)
     cv_number_init(&high);
     set_decimal(&low, 0.5);
     set_decimal(&high, 1);
-    ck_assert_int_eq(dg_find_transitions(&list, NULL, &t->exact, &low, &high, 1, &high, 20, &why),
+    ck_assert_int_eq(dg_find_transitions(&list, NULL, &t->exact, &low, &high, 1, &high, 20, 0, &why),
                      CV_BAD_INPUT);
     ck_assert_uint_eq(list.count, 0);
     cv_number_clear(&low);

@@ -154,7 +154,7 @@ static void check_dgreen(const combination *k)
     dg_transition_list lists[MASSES_MAX];
     cv_message why = {""};
     const cv_status status = dg_find_transitions(lists, NULL, &k->params, &k->alpha_min, &k->alpha_max,
-                                                 k->count, k->mass, TRANSITION_DIGITS + 1, &why);
+                                                 k->count, k->mass, TRANSITION_DIGITS + 1, 0, &why);
     ck_assert_msg(status == CV_OK, "dgreen: %s", why.text);
     for (size_t m = 0; m < k->count; m++) {
         claims c = {lists[m].status, lists[m].why.text, lists[m].count, {0}, {0}, {0}, {0}};
