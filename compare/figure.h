@@ -19,6 +19,7 @@ typedef cv_status cmp_figure_draw(cmp_picture *p, const cmp_figure *f, cv_messag
 
 cmp_figure_draw cmp_draw_curve_right; /* figure 2 */
 cmp_figure_draw cmp_draw_curve_left;  /* figure 3 */
+cmp_figure_draw cmp_draw_lines;       /* figures 4 and 5 */
 cmp_figure_draw cmp_draw_deflection;  /* figures 6 and 7 */
 cmp_figure_draw cmp_draw_map;         /* unstable roots and growth rate over velocity and mass ratio */
 cmp_figure_draw cmp_draw_steady;      /* shapes of rail, sleepers and ballast */

@@ -4,27 +4,24 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "compare/figure_velocities.h"
+#include "compare/figure_line_data.h"
 #include "compare/format.h"
 #include "dgreen/map.h"
 
 enum { COLUMNS = 160, ROWS = 80, LEVELS_SHOWN = 4, DIGITS = 6 };
 
 typedef struct {
+    cmp_line_range range;
     double alphas[COLUMNS], masses[ROWS]; /* centres of the fields, even in alpha and in log eta_M */
-    double begin, end;                    /* of the picture, alpha */
-    double lightest, heaviest;            /* its mass ratios */
 } grid;
 
-static void set_grid(grid *g, const cmp_velocities *v, const cv_case *c)
+static void set_grid(grid *g)
 {
-    g->end = cmp_velocities_end(v);
-    g->begin = cmp_velocities_begin(v, g->end);
-    cmp_mass_range(&g->lightest, &g->heaviest, c);
+    const cmp_line_range *r = &g->range;
     for (int i = 0; i < COLUMNS; i++)
-        g->alphas[i] = g->begin + (g->end - g->begin) * (i + 0.5) / COLUMNS;
+        g->alphas[i] = r->begin + (r->end - r->begin) * (i + 0.5) / COLUMNS;
     for (int i = 0; i < ROWS; i++)
-        g->masses[i] = g->lightest * pow(g->heaviest / g->lightest, (i + 0.5) / ROWS);
+        g->masses[i] = r->lightest * pow(r->heaviest / r->lightest, (i + 0.5) / ROWS);
 }
 
 /* An undecided field stays empty. */
@@ -49,7 +46,7 @@ static cv_status write_level(FILE *data, const cv_params *params, const grid *g,
     cv_status status = dg_sampler_init(&sampler, params, g->alphas[0], g->alphas[COLUMNS - 1], why);
     if (status != CV_OK)
         return status;
-    fprintf(data, "%s# map %zu\n# alpha, eta_M, unstable roots, growth rate\n", level > 0 ? "\n" : "",
+    fprintf(data, "%s# map %zu\n# alpha, eta_M, unstable roots, growth rate\n", level > 0 ? "\n\n" : "",
             level + 1);
     for (int i = 0; i < COLUMNS && status == CV_OK; i++) {
         status = dg_map_row(cells, &sampler, g->alphas[i], ROWS, g->masses, why);
@@ -62,42 +59,46 @@ static cv_status write_level(FILE *data, const cv_params *params, const grid *g,
     return status;
 }
 
-static void plot(FILE *s, const cmp_velocities *v, size_t level, const char *field)
+static void plot(FILE *s, const cmp_velocities *v, size_t level, const char *field, size_t branches)
 {
     fprintf(s, "plot data index 'map %zu' using 1:(log10($2)):(%s) with image", level + 1, field);
     cmp_velocities_plot(s, v, 1);
+    if (branches > 0)
+        fprintf(s, ", \\\n    data index 'lines %zu' using 1:(log10($2)) with lines linestyle 1", level + 1);
     fprintf(s, "\n");
 }
 
 /* Two panels for a level: the number of roots, and the growth rate where there are some. */
-static void write_panels(FILE *s, const cmp_velocities *v, const cv_params *params, size_t level)
+static void write_panels(FILE *s, const cmp_velocities *v, const cv_params *params, size_t level,
+                         size_t branches)
 {
     cmp_damping_text damping;
     fprintf(s, "\nset title 'damping %s: number of unstable roots'\n",
             cmp_format_damping(&damping, params, DIGITS));
     fprintf(s, "set palette defined (0 '#ffffff', 1 '#f0b070', 2 '#b04020') maxcolors 3\n"
                "set cbrange [-1:5]\nset cbtics ('0' 0, '2' 2, '≥ 4' 4)\n");
-    plot(s, v, level, "$3");
+    plot(s, v, level, "$3", branches);
     fprintf(s, "set title 'damping %s: growth rate'\n", damping.text);
     fprintf(
         s,
         "set palette defined (0 '#ffffff', 1 '#dce8f8', 2 '#80b0e0', 3 '#4060b0', 4 '#101040') maxcolors 5\n"
         "set cbrange [-5:0]\nset cbtics ('0' -4, '10^{-3}' -3, '10^{-2}' -2, '10^{-1}' -1)\n");
-    plot(s, v, level, "growth($3, $4)");
+    plot(s, v, level, "growth($3, $4)", branches);
 }
 
 static cv_status draw(cmp_picture *p, const cmp_figure *f, const cmp_velocities *v, cv_message *why)
 {
-    grid g;
+    grid g = {.range = cmp_line_range_of(v, f->of)};
+    const cmp_line_range *r = &g.range;
     cv_params params;
     const size_t levels = cmp_figure_levels(f), shown = levels < LEVELS_SHOWN ? levels : LEVELS_SHOWN;
-    set_grid(&g, v, f->of);
+    set_grid(&g);
     cmp_script_begin(p, 17, 1 + 5.2 * (double)shown);
     fprintf(p->script, "data = '%s.dat'\nset multiplot layout %zu,2\n", p->name, shown);
     fprintf(p->script, "set xlabel 'velocity ratio {/:Italic α}'\nset ylabel 'mass ratio {/:Italic η}_M'\n");
     fprintf(p->script, "set xrange [%.10g:%.10g]\nbottom = %.10g; top = %.10g\nset yrange [bottom:top]\n",
-            g.begin, g.end, log10(g.lightest), log10(g.heaviest));
-    cmp_mass_tics(p->script, g.lightest, g.heaviest);
+            r->begin, r->end, log10(r->lightest), log10(r->heaviest));
+    cmp_mass_tics(p->script, r->lightest, r->heaviest);
     fprintf(p->script,
             "set tics front\nunset key\n"
             "# log10 of the growth rate; the smallest ones share a colour, stable fields have their own\n"
@@ -105,9 +106,12 @@ static cv_status draw(cmp_picture *p, const cmp_figure *f, const cmp_velocities 
     cv_status status = CV_OK;
     cv_params_init(&params);
     for (size_t l = 0; l < shown && status == CV_OK; l++) {
+        size_t branches = 0;
         cmp_figure_params(&params, f, l);
         status = write_level(p->data, &params, &g, l, why);
-        write_panels(p->script, v, &params, l);
+        if (status == CV_OK)
+            status = cmp_line_data(p, &branches, &params, r, l, why);
+        write_panels(p->script, v, &params, l, branches);
     }
     cv_params_clear(&params);
     cmp_velocities_data(p->data, v);

@@ -21,8 +21,11 @@ static const char HELP[] =
     "\n"
     "  curve-right   figure 2: D-decomposition curves, the stable part to the right; stable and unstable\n"
     "  curve-left    figure 3: the same with the stable part to the left; curve: both\n"
+    "  lines         figures 4, 5: instability lines by damping, over velocity and mass ratio\n"
     "  deflection    figures 6, 7: undamped steady deflection over the velocity of the moving force\n"
-    "  map           number of unstable roots, and growth rate, over velocity and mass ratio\n"
+    "  map           number of unstable roots, and growth rate, over velocity and mass ratio by "
+    "D-decomposition, and the\n"
+    "                instability lines of the semianalytical method over them\n"
     "  steady        steady shapes of rail, sleepers and ballast under the moving force\n"
     "\n"
     "  -o DIR            the folder, made when it is missing\n"
@@ -53,6 +56,7 @@ static const struct {
 } KINDS[] = {
     {"curve-right", "curve", "2", cmp_draw_curve_right},
     {"curve-left", "curve", "3", cmp_draw_curve_left},
+    {"lines", "lines", "45", cmp_draw_lines},
     {"deflection", "deflection", "67", cmp_draw_deflection},
     {"map", "map", "", cmp_draw_map},
     {"steady", "steady", "", cmp_draw_steady},
@@ -228,12 +232,14 @@ static cv_status list_pictures(const plan *p, FILE *out)
         width = (int)fmax(width, (double)strlen(p->tasks[i].picture.name));
     for (size_t i = 0; i < p->count; i++) {
         const task *t = &p->tasks[i];
+        const char *doubt = t->picture.doubt.text;
         if (t->status == CV_OK && !t->picture.absent)
-            fprintf(out, "%-*s  %s\n", width, t->picture.name, t->picture.shows);
+            fprintf(out, "%-*s  %s%s%s\n", width, t->picture.name, t->picture.shows,
+                    doubt[0] != '\0' ? "; undecided: " : "", doubt);
         else
             fprintf(out, "%-*s  not drawn, %s: %s\n", width, t->picture.name, cmp_figure_case(of, &t->figure),
                     t->status == CV_OK ? t->picture.shows : t->why.text);
-        if (t->status != CV_OK)
+        if (t->status != CV_OK || doubt[0] != '\0')
             status = CV_UNDECIDED;
     }
     return status;

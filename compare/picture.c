@@ -40,6 +40,12 @@ void cmp_picture_clear(cmp_picture *p)
     *p = (cmp_picture){.data = NULL};
 }
 
+void cmp_picture_doubt(cmp_picture *p, const char *text)
+{
+    if (p->doubt.text[0] == '\0')
+        snprintf(p->doubt.text, sizeof p->doubt.text, "%s", text);
+}
+
 /* Like mkdir -p: a parent that is there already is as good as one made here. */
 static cv_status make_folder(const char *path, cv_message *why)
 {

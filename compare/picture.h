@@ -14,6 +14,7 @@ typedef struct {
     char name[CMP_PICTURE_NAME];   /* safe as a file name */
     char shows[CMP_PICTURE_SHOWS]; /* one line for people */
     int absent;                    /* there is nothing to draw; shows says why */
+    cv_message doubt;              /* what is undecided about it; empty: nothing */
     FILE *data, *script;           /* to be written by who draws */
     char *data_bytes, *script_bytes;
     size_t data_size, script_size;
@@ -22,6 +23,9 @@ typedef struct {
 /* Both streams are in memory and open. On failure there is nothing to clear. */
 cv_status cmp_picture_open(cmp_picture *p, const char *name, cv_message *why);
 void cmp_picture_clear(cmp_picture *p);
+
+/* Notes the first doubt. */
+void cmp_picture_doubt(cmp_picture *p, const char *text);
 
 enum { CMP_SVG = 1, CMP_PDF = 2 };
 

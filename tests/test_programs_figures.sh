@@ -49,7 +49,7 @@ is_svg() { head -5 "$1" | grep -q '<svg ' && tail -2 "$1" | grep -q '</svg>'; }
 is_pdf() { head -c 5 "$1" | grep -q '%PDF-' && tail -c 7 "$1" | grep -q '%%EOF'; }
 
 # the lines of block NAME in a data file
-block() { awk -v name="# $2" '/^# alpha|^#.*,/ { next } /^#/ { on = $0 == name; next } on' "$1"; }
+block() { awk -v name="# $2" '/^# alpha/ { next } /^#.*,/ { if (on) print; next } /^#/ { on = $0 == name; next } on' "$1"; }
 
 # close A B RELATIVE
 close() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; if (b < 0) b = -b; exit !(d <= r * b) }'; }
@@ -135,6 +135,37 @@ exits 0 "a case without" "$paper" -o "$folder/curves" --only 3 --case 1 --dampin
 verify "it is said" grep -q '^curve-left-1 *not drawn, case 1: no crossing' "$folder/out"
 exits 0 "--mass-ratio" "$paper" -o "$folder/curves" --only 2 --case 1 --alpha 0.3 --mass-ratio 80 --format svg
 verify "one panel" test "$(grep -c '^plot' "$folder/curves/curve-right-1.gp")" -eq 1
+
+# Figures 4 and 5. crossings FIXED WANTED VALUE: column WANTED where column FIXED passes VALUE along the lines, in the
+# order of size, by interpolation in alpha and log eta_M
+crossings() {
+    awk -v fixed="$1" -v wanted="$2" -v value="$3" '
+        function scale(column, x) { return column == 2 ? log(x) : x }
+        BEGIN { v = scale(fixed, value) }
+        NF != 3 || /^#/ { n = 0; next }
+        { x = scale(fixed, $fixed); y = scale(wanted, $wanted) }
+        n++ && (before - v) * (x - v) < 0 {
+            z = last + (y - last) * (v - before) / (x - before)
+            printf "%.5f\n", wanted == 2 ? exp(z) : z
+        }
+        { before = x; last = y }' | sort -n
+}
+exits 0 "figure 4 b)" "$paper" -o "$folder/lines" --only 4 --case 2 --damping 0.05 --format svg
+verify "lines-2.svg is SVG" is_svg "$folder/lines/lines-2.svg"
+"$build/critvel-dgreen" transitions "$paper" --case 2 --damping 0.05 --mass-ratio 300 --digits 10 |
+    awk '$1 == "alpha" && $2 < 1 { print $2 }' >"$folder/transitions"
+block "$folder/lines/lines-2.dat" "lines 1" | crossings 2 1 300 >"$folder/crossings"
+verify "case 2: three of the other method's transitions" test "$(wc -l <"$folder/transitions")" -eq 3
+verify "case 2: as many crossings of eta_M = 300" test "$(wc -l <"$folder/crossings")" -eq 3
+paste "$folder/transitions" "$folder/crossings" >"$folder/pairs"
+while read -r transition crossing; do
+    verify "a line passes eta_M = 300 at the transition $transition" close "$crossing" "$transition" 0.002
+done <"$folder/pairs"
+exits 0 "figure 5 b)" "$paper" -o "$folder/lines" --only lines --case 4 --damping 1e-10 --format svg
+verify "case 4, 1e-10: one crossing at alpha = 0.4, eta_M = 231" close \
+    "$(block "$folder/lines/lines-4.dat" "lines 1" | crossings 1 2 0.4)" 231.0 0.01
+exits 1 "no damping" "$paper" -o "$folder/lines" --only lines --case 2 --damping 0 --format svg
+verify "it is said" grep -q '^lines-2 .*undecided: no lines without damping' "$folder/out"
 
 # The map against the roots that the other method finds, at fields all over the plane.
 # same_roots ALPHA ETA_M ROOTS GROWTH

@@ -1,0 +1,21 @@
+/* Instability lines as data of a picture. */
+#ifndef CRITVEL_COMPARE_FIGURE_LINE_DATA_H
+#define CRITVEL_COMPARE_FIGURE_LINE_DATA_H
+
+#include "compare/figure_velocities.h"
+
+/* The part of the plane: low is the file's lowest velocity, begin and end are those of the picture. */
+typedef struct {
+    double begin, low, end;    /* alpha */
+    double lightest, heaviest; /* eta_M */
+} cmp_line_range;
+
+cmp_line_range cmp_line_range_of(const cmp_velocities *v, const cv_case *c);
+
+/* Adds the block "lines LEVEL" (from 1 on): alpha, eta_M, q along each branch of the semianalytical method's
+ * lines at one damping, branches apart by an empty line. *branches becomes their number; without any, and
+ * without damping, there is no block. What is undecided about them is noted in the picture. */
+cv_status cmp_line_data(cmp_picture *p, size_t *branches, const cv_params *params,
+                        const cmp_line_range *range, size_t level, cv_message *why);
+
+#endif
