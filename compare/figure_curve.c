@@ -92,7 +92,7 @@ static void plot(FILE *s, char panel, double delta)
             "    data index '%c boundary' using 2:3 with lines linestyle 1 title '{/:Italic z}(±i{/:Italic "
             "q})', \\\n"
             "    data index '%c shifted' using 2:3 with lines linestyle 3 title '{/:Italic z}({/:Italic δ} ± "
-            "i{/:Italic q}), {/:Italic δ} = %g', \\\n"
+            "i{/:Italic q}),  {/:Italic δ} = %g', \\\n"
             "    '+' using (1):(0) every ::0::0 with points linestyle 9 title '(1, 0)'\n",
             panel, panel, panel, delta);
 }
@@ -123,7 +123,7 @@ static cv_status draw_panel(drawing *d, double eta_M, char panel, int alone, cv_
         write_line(d->picture->data, &c.boundary, "boundary", panel);
         write_line(d->picture->data, &c.shifted, "shifted", panel);
         write_stable_parts(d->picture->data, &c, panel);
-        fprintf(d->picture->script, "\nset title '%s{/:Italic η}_M = %.6g: %s (%d unstable roots)'\n",
+        fprintf(d->picture->script, "\nset title '%s{/:Italic η}_M = %.6g:  %s (%d unstable roots)'\n",
                 alone ? "" : label, eta_M, c.unstable > 0 ? "unstable" : "stable", c.unstable);
         plot(d->picture->script, panel, d->delta);
     }
@@ -135,16 +135,17 @@ static void begin(drawing *d, int panels)
 {
     FILE *s = d->picture->script;
     fprintf(d->picture->data, "# %s\n", d->picture->shows);
-    cmp_script_begin(d->picture, panels > 1 ? 17 : 8.6, 6.6);
+    cmp_script_begin(d->picture, panels > 1 ? 17 : 8.6, 7.2);
     fprintf(s, "set style line 10 linecolor rgb '#b0b0b0' linewidth 5\n");
     fprintf(s, "data = '%s.dat'\n", d->picture->name);
     fprintf(s,
-            "set xlabel 'Re {/:Italic z} (dimensionless)'\nset ylabel 'Im {/:Italic z} (dimensionless)'\n");
+            "set xlabel 'Re {/:Italic z}  (dimensionless)'\nset ylabel 'Im {/:Italic z}  (dimensionless)'\n");
     fprintf(s, "set xrange [%g:%g]\n", LEFT, RIGHT);
     fprintf(s, "set xzeroaxis linestyle 8\nset yzeroaxis linestyle 8\nset key outside top center horizontal "
                "maxcols 2\n");
-    if (panels > 1)
-        fprintf(s, "set multiplot layout 1,2\n");
+    fprintf(s, "set multiplot layout 1,%d title ", panels);
+    cmp_script_text(s, d->picture->shows);
+    fprintf(s, " font sprintf(',%%g', size) offset 0,0.4\n");
 }
 
 static cv_status draw_panels(drawing *d, const double *masses, int count, cv_message *why)
@@ -153,8 +154,7 @@ static cv_status draw_panels(drawing *d, const double *masses, int count, cv_mes
     cv_status status = CV_OK;
     for (int i = 0; i < count && status == CV_OK; i++)
         status = draw_panel(d, masses[i], (char)('a' + i), count == 1, why);
-    if (count > 1)
-        fprintf(d->picture->script, "unset multiplot\n");
+    fprintf(d->picture->script, "unset multiplot\n");
     return status;
 }
 

@@ -196,8 +196,8 @@ static void write_script(const cmp_picture *p, const curves *c, double high, dou
     const int zoomed = peak != NULL && fabs(peak->deflection) > size;
     cmp_script_begin(p, zoomed ? 17 : 8.6, 6.6);
     fprintf(p->script, "data = '%s.dat'\n", p->name);
-    fprintf(p->script, "set xlabel 'velocity ratio {/:Italic α} (dimensionless)'\n"
-                       "set ylabel 'deflection {/:Italic w} (dimensionless)'\n");
+    fprintf(p->script, "set xlabel 'velocity ratio  {/:Italic α}  (dimensionless)'\n"
+                       "set ylabel 'deflection  {/:Italic w}  (dimensionless)'\n");
     fprintf(p->script, "set key outside top center horizontal maxcols 3\n");
     if (zoomed)
         fprintf(p->script, "set multiplot layout 1,2\nset title 'a)' offset 0,-0.5\n");

@@ -11,8 +11,8 @@ static void begin(const cmp_picture *p, const cmp_line_range *r)
     FILE *s = p->script;
     cmp_script_begin(p, 8.6, 8);
     fprintf(s, "data = '%s.dat'\n", p->name);
-    fprintf(s, "set xlabel 'velocity ratio {/:Italic α} (dimensionless)'\n"
-               "set ylabel 'mass ratio {/:Italic η}_M (dimensionless)'\n");
+    fprintf(s, "set xlabel 'velocity ratio  {/:Italic α}  (dimensionless)'\n"
+               "set ylabel 'mass ratio  {/:Italic η}_M  (dimensionless)'\n");
     fprintf(s, "set logscale y\nset format y '10^{%%T}'\n");
     fprintf(s, "set xrange [%.10g:%.10g]\nbottom = %.10g; top = %.10g\nset yrange [bottom:top]\n", r->begin,
             r->end, r->lightest, r->heaviest);

@@ -95,7 +95,8 @@ static cv_status draw(cmp_picture *p, const cmp_figure *f, const cmp_velocities 
     set_grid(&g);
     cmp_script_begin(p, 17, 1 + 5.2 * (double)shown);
     fprintf(p->script, "data = '%s.dat'\nset multiplot layout %zu,2\n", p->name, shown);
-    fprintf(p->script, "set xlabel 'velocity ratio {/:Italic α}'\nset ylabel 'mass ratio {/:Italic η}_M'\n");
+    fprintf(p->script,
+            "set xlabel 'velocity ratio  {/:Italic α}'\nset ylabel 'mass ratio  {/:Italic η}_M'\n");
     fprintf(p->script, "set xrange [%.10g:%.10g]\nbottom = %.10g; top = %.10g\nset yrange [bottom:top]\n",
             r->begin, r->end, log10(r->lightest), log10(r->heaviest));
     cmp_mass_tics(p->script, r->lightest, r->heaviest);

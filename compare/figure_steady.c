@@ -42,10 +42,10 @@ static cv_status draw_panel(cmp_picture *p, const cv_params *params, const cv_nu
         fprintf(p->data, "%.8g %.10Lg %.10Lg %.10Lg\n", xi, u[0], u[1], u[2]);
     }
     fprintf(p->script,
-            "\nset title '%s{/:Italic α} = %s'\nset xrange [%g:%g]\n"
-            "plot data index '%c' using 1:2 with lines linestyle 1 title 'rail {/:Italic w}', \\\n"
-            "    data index '%c' using 1:3 with lines linestyle 2 title 'sleepers {/:Italic u}_s', \\\n"
-            "    data index '%c' using 1:4 with lines linestyle 3 title 'ballast {/:Italic u}_b'\n",
+            "\nset title '%s{/:Italic α}  =  %s'\nset xrange [%g:%g]\n"
+            "plot data index '%c' using 1:2 with lines linestyle 1 title 'rail  {/:Italic w}', \\\n"
+            "    data index '%c' using 1:3 with lines linestyle 2 title 'sleepers  {/:Italic u}_s', \\\n"
+            "    data index '%c' using 1:4 with lines linestyle 3 title 'ballast  {/:Italic u}_b'\n",
             alone ? "" : label, text.text, -reach, reach, panel, panel, panel);
     return CV_OK;
 }
@@ -55,7 +55,7 @@ static void begin(const cmp_picture *p, int panels)
     FILE *s = p->script;
     cmp_script_begin(p, panels > 1 ? 17 : 8.6, 6.6);
     fprintf(s, "data = '%s.dat'\n", p->name);
-    fprintf(s, "set xlabel 'distance from the force {/:Italic ξ} (dimensionless)'\n"
+    fprintf(s, "set xlabel 'distance from the force  {/:Italic ξ}  (dimensionless)'\n"
                "set ylabel 'deflection (dimensionless), downward' offset 1\nset yrange [] reverse\n"
                "set xzeroaxis linestyle 8\nset yzeroaxis linestyle 8\n"
                "set key outside top center horizontal\n");

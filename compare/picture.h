@@ -45,10 +45,11 @@ cv_status cmp_album_open(cmp_album *a, const char *path, int formats, cv_message
 cv_status cmp_picture_publish(cmp_picture *p, const cmp_album *a, cv_message *why);
 
 /* What every script begins with: terminal and output for the variable "format", styles 1 to 9 that differ
- * also in grey, borders, grid. Size in cm of the PDF. */
+ * also in grey, borders, the variable "size" of the font. Size in cm of the PDF. (Two blanks somewhere in a
+ * text with italic letters make gnuplot preserve all blanks of it in an SVG.) */
 void cmp_script_begin(const cmp_picture *p, double width, double height);
 
-/* text as a gnuplot string in quotes, enhanced-text characters escaped. */
+/* text as a gnuplot string in quotes, literally: nothing in it is markup. */
 void cmp_script_text(FILE *script, const char *text);
 
 #endif

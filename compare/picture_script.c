@@ -14,7 +14,7 @@ static const char STYLES[] =
     "# marks of velocities: true, false, pseudocritical\n"
     "set style line 5 linecolor rgb '#606060' linewidth 1 dashtype (14,6)\n"
     "set style line 6 linecolor rgb '#606060' linewidth 1 dashtype (14,4,2,4)\n"
-    "set style line 7 linecolor rgb '#606060' linewidth 1 dashtype (2,4)\n"
+    "set style line 7 linecolor rgb '#404040' linewidth 1.2 dashtype (3,4)\n"
     "# axes through 0, and points\n"
     "set style line 8 linecolor rgb '#a0a0a0' linewidth 0.6 dashtype solid\n"
     "set style line 9 linecolor rgb '#000000' linewidth 1 pointtype 6 pointsize 0.6\n";
@@ -38,11 +38,13 @@ void cmp_script_begin(const cmp_picture *p, double width, double height)
     fprintf(s, "# or, as PDF: gnuplot -e \"format = 'pdf'\" %s.gp\n", p->name);
     fprintf(s, "set encoding utf8\nif (!exists('format')) format = 'svg'\nif (format eq 'pdf') {\n");
     fprintf(s,
-            "    set terminal pdfcairo enhanced color size %gcm, %gcm font 'DejaVu Sans,7' linewidth 0.8\n",
+            "    set terminal pdfcairo enhanced color size %gcm, %gcm font 'DejaVu Sans,7' linewidth 0.8\n   "
+            " size = 7\n",
             width, height);
     fprintf(s, "} else {\n    set terminal svg enhanced size %.0f, %.0f font 'DejaVu Sans,10' name '%s' ",
             width * 60, height * 60, svg_name(id, p->name));
-    fprintf(s, "background rgb 'white'\n}\nset output '%s.' . format\n\n%s\n", p->name, STYLES);
+    fprintf(s, "background rgb 'white'\n    size = 10\n}\nset output '%s.' . format\n\n%s\n", p->name,
+            STYLES);
     fprintf(s, "set border linewidth 0.7\nset tics scale 0.6\nset clip two\n");
     fprintf(s, "set key samplen 2.5 spacing 1.1 noautotitle\n");
 }
