@@ -4,6 +4,7 @@
 #ifndef CRITVEL_COMPARE_COMMANDS_H
 #define CRITVEL_COMPARE_COMMANDS_H
 
+int cmp_lines_main(int argc, char **argv); /* instability lines */
 int cmp_roots_main(int argc, char **argv); /* mass-induced frequencies at one velocity */
 
 #endif

@@ -14,6 +14,7 @@ static const char HELP[] =
     "usage: critvel-compare [options] FILE\n"
     "       critvel-compare efficiency [options] FILE\n"
     "       critvel-compare figures [options] FILE -o DIR\n"
+    "       critvel-compare lines FILE [options]\n"
     "       critvel-compare roots FILE --alpha X --mass-ratio M [options]\n"
     "\n"
     "Finds the velocities at which a mass moving on an infinite beam on three viscoelastic layers gains or "
@@ -29,6 +30,7 @@ static const char HELP[] =
     "double precision, the largest precision, and processor time.\n"
     "\n"
     "figures: the figures of the paper through gnuplot; see critvel-compare figures --help\n"
+    "lines: instability lines by both methods, branch by branch; see critvel-compare lines --help\n"
     "roots: mass-induced frequencies and growth rates by both methods; see critvel-compare roots --help\n"
     "\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
@@ -169,7 +171,7 @@ static cv_status work(const void *typed, const cv_arguments *arguments, FILE *ou
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} OWN_OPTIONS[] = {{"figures", cmp_figures_main}, {"roots", cmp_roots_main}};
+} OWN_OPTIONS[] = {{"figures", cmp_figures_main}, {"lines", cmp_lines_main}, {"roots", cmp_roots_main}};
 
 /* The first word is FILE unless it is a command; a file of that name can be given as ./efficiency. */
 int main(int argc, char **argv)

@@ -2,10 +2,9 @@
 
 #include <math.h>
 
-#include <jansson.h>
-
 #include "common/cli.h"
 #include "compare/format.h"
+#include "compare/json_parts.h"
 #include "compare/table.h"
 
 enum { PARAMETER_DIGITS = 20 };
@@ -115,14 +114,6 @@ static json_t *json_claim(const cmp_root *claim, int digits)
                      cmp_format_mpfr(&error, claim->error, 2), "decided", claim->decided == CV_OK);
 }
 
-static json_t *json_agreement(const cmp_verdict *v)
-{
-    const int known = v->kind == CMP_AGREE && isfinite(v->digits);
-    return json_pack("{s:s, s:o, s:o}", "verdict", cmp_kind_name(v->kind), "digits",
-                     known ? json_real(cmp_floor_tenth(v->digits)) : json_null(), "reason",
-                     v->reason.text[0] != '\0' ? json_string(v->reason.text) : json_null());
-}
-
 static json_t *json_row(const cmp_root_row *row, const cmp_roots_report *r)
 {
     const int digits = r->choice->digits;
@@ -131,20 +122,12 @@ static json_t *json_row(const cmp_root_row *row, const cmp_roots_report *r)
         "{s:b, s:o, s:o, s:o, s:o}", "unstable", row->unstable, r->names[0], json_claim(row->by[0], digits),
         r->names[1], json_claim(row->by[1], digits), "largest_residual",
         mpfr_zero_p(row->residual) ? json_null() : json_string(cmp_format_mpfr(&residual, row->residual, 2)),
-        "agreement", json_agreement(&row->verdict));
+        "agreement", cmp_json_verdict(&row->verdict));
 }
 
 static json_t *json_count(const cmp_root_list *list)
 {
     return list->unstable >= 0 ? json_integer(list->unstable) : json_null();
-}
-
-static json_t *json_damping(const cv_params *p)
-{
-    cmp_number_text a, b, c;
-    return json_pack("{s:s, s:s, s:s}", "eta_p", cmp_format_exact(&a, &p->eta_p, PARAMETER_DIGITS), "eta_b",
-                     cmp_format_exact(&b, &p->eta_b, PARAMETER_DIGITS), "eta_f",
-                     cmp_format_exact(&c, &p->eta_f, PARAMETER_DIGITS));
 }
 
 cv_status cmp_roots_report_json(FILE *out, const cmp_roots_report *r, cv_message *why)
@@ -160,13 +143,10 @@ cv_status cmp_roots_report_json(FILE *out, const cmp_roots_report *r, cv_message
     json_t *root = json_pack("{s:s, s:s, s:s, s:s, s:o, s:s, s:s, s:i, s:o, s:o, s:o}", "schema",
                              "critvel-compare-roots/1", "version", CV_VERSION, "verdict",
                              cmp_kind_name(roots->verdict.kind), "case", r->choice->chosen->name, "damping",
-                             json_damping(&r->choice->params), "alpha",
+                             cmp_json_damping(&r->choice->params), "alpha",
                              cmp_format_exact(&alpha, &r->selection->alpha.value, PARAMETER_DIGITS), "eta_M",
                              cmp_format_exact(&eta_M, &r->selection->mass_ratio.value, PARAMETER_DIGITS),
                              "digits", r->choice->digits, "unstable_roots", counts, "roots", rows,
-                             "agreement", json_agreement(&roots->verdict));
-    failed |= root == NULL || json_dumpf(root, out, JSON_INDENT(1) | JSON_REAL_PRECISION(12));
-    json_decref(root);
-    return failed || fputc('\n', out) == EOF ? cv_fail(why, CV_FAILED, "the JSON report could not be written")
-                                             : CV_OK;
+                             "agreement", cmp_json_verdict(&roots->verdict));
+    return cmp_json_write(root, failed, out, why);
 }
