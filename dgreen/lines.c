@@ -10,12 +10,25 @@
 /* The curves are listed down to this part of the smallest 1/eta_M. */
 static const double FLOOR = 0.3;
 
+static void graph_free(dg_line_graph *g)
+{
+    if (g == NULL)
+        return;
+    dg_station_clear(&g->station);
+    dg_branch_curves_free(g->branches);
+    dg_follow_free(g->follow);
+    dg_track_free(g->track);
+    free(g->nodes);
+    free(g);
+}
+
 void dg_lines_clear(dg_lines *l)
 {
     for (size_t i = 0; i < l->count; i++)
         free(l->lines[i].vertices);
     free(l->lines);
     free(l->doubts);
+    graph_free(l->graph);
     memset(l, 0, sizeof *l);
 }
 
@@ -50,29 +63,19 @@ static cv_status search(dg_line_graph *g)
         status = dg_line_collect(g);
     dg_curve_clear(&columns[0].curve);
     dg_curve_clear(&columns[1].curve);
-    dg_station_clear(&g->station);
-    free(g->nodes);
     free(v.at);
     return status;
 }
 
 static cv_status prepare_and_search(dg_line_graph *g, const cv_params *params)
 {
-    dg_track *track = NULL;
-    dg_follow *follow = NULL;
-    dg_branch_curves *branches = NULL;
-    cv_status status = dg_track_new(&track, params, g->why);
+    cv_status status = dg_track_new(&g->track, params, g->why);
     if (status == CV_OK)
-        status = dg_follow_new(&follow, g->why);
+        status = dg_follow_new(&g->follow, g->why);
     if (status == CV_OK)
-        status = dg_branch_curves_new(&branches, track, g->alpha_min, g->alpha_max, g->why);
-    g->probe = (dg_probe){track, follow, branches, 0};
-    if (status == CV_OK)
-        status = search(g);
-    dg_branch_curves_free(branches);
-    dg_follow_free(follow);
-    dg_track_free(track);
-    return status;
+        status = dg_branch_curves_new(&g->branches, g->track, g->alpha_min, g->alpha_max, g->why);
+    g->probe = (dg_probe){g->track, g->follow, g->branches, 0};
+    return status == CV_OK ? search(g) : status;
 }
 
 cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min, double alpha_max,
@@ -83,20 +86,26 @@ cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min
         return cv_fail(why, CV_BAD_INPUT, "instability lines need damping: all damping ratios are zero");
     if (!(alpha_min > 0 && alpha_max > alpha_min && mass_min > 0 && mass_max > mass_min))
         return cv_fail(why, CV_BAD_INPUT, "instability lines need ranges 0 < first < last");
-    out->alpha_min = alpha_min;
-    out->alpha_max = alpha_max;
-    out->mass_min = mass_min;
-    out->mass_max = mass_max;
-    dg_line_graph g = {.alpha_min = alpha_min,
-                       .alpha_max = alpha_max,
-                       .x_min = 1 / mass_max,
-                       .x_max = 1 / mass_min,
-                       .x_floor = FLOOR / mass_max,
-                       .scale_alpha = alpha_max - alpha_min,
-                       .scale_log = log(mass_max / mass_min),
-                       .lines = out,
-                       .why = why};
-    const cv_status status = prepare_and_search(&g, params);
+    dg_line_graph *g = calloc(1, sizeof *g);
+    if (g == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    *out = (dg_lines){.alpha_min = alpha_min,
+                      .alpha_max = alpha_max,
+                      .mass_min = mass_min,
+                      .mass_max = mass_max,
+                      .graph = g};
+    *g = (dg_line_graph){.alpha_min = alpha_min,
+                         .alpha_max = alpha_max,
+                         .x_min = 1 / mass_max,
+                         .x_max = 1 / mass_min,
+                         .x_floor = FLOOR / mass_max,
+                         .scale_alpha = alpha_max - alpha_min,
+                         .scale_log = log(mass_max / mass_min),
+                         .lines = out,
+                         .why = why};
+    const cv_status status = prepare_and_search(g, params);
+    g->lines = NULL; /* out may move */
+    g->why = NULL;
     if (status != CV_OK)
         dg_lines_clear(out);
     return status;

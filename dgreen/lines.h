@@ -22,6 +22,7 @@ typedef struct {
     double alpha, q, mass_ratio;
     double q_error;   /* the zero of Im zeta at exactly this alpha is within, certified signs; tips: 0, not
                          bounded */
+    double scale;     /* distance in q over which zeta changes here; a tenth of it will do as "reach" below */
     int turns;        /* 1: the velocity is an extreme value along the line (tip) */
     int stable_roots; /* N on the side with fewer unstable roots, beside this vertex; -1: not counted */
 } dg_line_vertex;
@@ -62,6 +63,7 @@ typedef struct {
     size_t count, doubt_count;
     dg_line *lines; /* ordered by their lowest velocity */
     dg_line_doubt *doubts;
+    struct dg_line_graph *graph; /* private: all points */
 } dg_lines;
 
 /* All lines in 0 < alpha_min <= alpha <= alpha_max, 0 < mass_min <= eta_M <= mass_max; a line that leaves the
@@ -71,6 +73,21 @@ typedef struct {
 cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min, double alpha_max,
                         double mass_min, double mass_max, cv_message *why);
 void dg_lines_clear(dg_lines *l);
+
+/* N at one point of the plane by counting lines: twice the balance of their directions at smaller eta_M.
+ * alpha in the range, mass_ratio <= mass_max. CV_UNDECIDED: on a line to double precision, or in doubt. */
+cv_status dg_lines_count(int *roots, const dg_lines *l, double alpha, double mass_ratio, cv_message *why);
+
+/* Where a line passes one mass ratio. */
+typedef struct {
+    double alpha, q;
+    int change; /* of N as alpha grows: 2 or -2 */
+} dg_line_passage;
+
+/* All passages, ascending in alpha, mass_min <= mass_ratio <= mass_max; the caller frees *out. CV_UNDECIDED:
+ * a line touches the mass ratio without passing to double precision, or could not be followed again. */
+cv_status dg_lines_passages(dg_line_passage **out, size_t *count, const dg_lines *l, double mass_ratio,
+                            cv_message *why);
 
 /* One point of a line to any number of digits. */
 typedef struct {

@@ -21,8 +21,11 @@ typedef struct {
     dg_line_exit exit[2]; /* where there is no neighbour */
 } dg_line_node;
 
-typedef struct {
-    dg_probe probe;
+typedef struct dg_line_graph {
+    dg_track *track;
+    dg_follow *follow;
+    dg_branch_curves *branches;
+    dg_probe probe; /* of the three */
     double alpha_min, alpha_max;
     double x_min, x_max;           /* 1/eta_M at the ends of the range */
     double x_floor;                /* crossings below are not seen */
@@ -70,6 +73,13 @@ typedef struct {
 } dg_line_pairs;
 /* 0: too many crossings */
 int dg_line_align(dg_line_pairs *p, const dg_curve *left, const dg_curve *right, double x_floor);
+
+/* The crossing at m->alpha between two nodes that are linked, l the one with the lower velocity. */
+cv_status dg_line_between(dg_followed *m, dg_line_graph *g, const dg_followed *l, const dg_followed *r);
+
+/* Narrows the bracket of a crossing as far as doubles go; the rest of it follows. Never fails: what cannot be
+ * certified stays as wide as it is. */
+void dg_line_polish(dg_followed *f, const dg_line_graph *g);
 
 /* Turns the linked nodes into lines. */
 cv_status dg_line_collect(dg_line_graph *g);

@@ -22,19 +22,6 @@ cv_status dg_line_piece_push(dg_line_piece *p, const dg_line_node *point, cv_mes
     return CV_OK;
 }
 
-/* The crossing at alpha between two nodes of a line, l the one with the lower velocity */
-static cv_status between(dg_followed *out, dg_line_graph *g, const dg_followed *l, const dg_followed *r,
-                         double alpha)
-{
-    cv_status status = dg_station_set(&g->station, g->probe.branches, l->alpha, g->why);
-    const size_t hard = g->station.hard_count;
-    if (status == CV_OK)
-        status = dg_station_set(&g->station, g->probe.branches, r->alpha, g->why);
-    const int alike = hard == g->station.hard_count;
-    out->alpha = alpha;
-    return status == CV_OK ? dg_crossing_between(out, &g->station, &g->probe, l, r, alike, g->why) : status;
-}
-
 /* Halving in alpha with the value(x, dx) of the crossing, which is negative on one side */
 typedef double property(const dg_crossing *c, double bound);
 
@@ -58,9 +45,9 @@ static void locate(dg_followed *l, dg_followed *r, dg_line_graph *g, property *v
         if (!(width > 1e-12 * g->scale_alpha) || low == 0 || high == 0 || fabs(log(l->at.x / r->at.x)) < 1e-9)
             return;
         const double part = i % 3 == 2 ? 0.5 : fmin(fmax(low / (low - high), 0.01), 0.99);
-        dg_followed middle;
-        const double alpha = l->alpha + part * width;
-        if (!(alpha > l->alpha && alpha < r->alpha) || between(&middle, g, l, r, alpha) != CV_OK)
+        dg_followed middle = {.alpha = l->alpha + part * width};
+        if (!(middle.alpha > l->alpha && middle.alpha < r->alpha) ||
+            dg_line_between(&middle, g, l, r) != CV_OK)
             return;
         *((value(&middle.at, bound) > 0) == (low > 0) ? l : r) = middle;
     }
@@ -158,11 +145,14 @@ static void mark(const dg_line_graph *g, const dg_line_piece *p, size_t greatest
     }
 }
 
-static dg_line_vertex vertex(const dg_line_node *n)
+static dg_line_vertex vertex(const dg_line_graph *g, const dg_line_node *n)
 {
-    const dg_crossing *c = &n->is.at;
+    dg_followed is = n->is;
+    if (!n->turns)
+        dg_line_polish(&is, g);
+    const dg_crossing *c = &is.at;
     const double error = n->turns ? 0 : fmax(c->q_high - c->q, c->q - c->q_low);
-    return (dg_line_vertex){n->is.alpha, c->q, 1 / c->x, error, n->turns, n->stable_roots};
+    return (dg_line_vertex){is.alpha, c->q, 1 / c->x, error, c->scale, n->turns, n->stable_roots};
 }
 
 /* eta_M falls with alpha where the line leaves the range at the bottom or at the highest velocity. */
@@ -203,7 +193,7 @@ cv_status dg_line_finish(dg_line_graph *g, dg_line_piece *p)
             continue;
         if (i == greatest)
             line.least = line.count;
-        line.vertices[line.count++] = vertex(&p->points[i]);
+        line.vertices[line.count++] = vertex(g, &p->points[i]);
     }
     line.zero_mass = zero_mass(&line, 0) || zero_mass(&line, 1);
     free(stays);

@@ -1,0 +1,194 @@
+/* Points of lines that have been found: between two linked nodes, at one velocity, at one mass ratio. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "dgreen/branch_points_hunt.h"
+#include "dgreen/lines_graph.h"
+
+/* The nodes on both sides have x beyond the one asked for by this factor: so has the line between them, which
+ * is smooth there. */
+static const double CLEARLY = 2;
+
+cv_status dg_line_between(dg_followed *m, dg_line_graph *g, const dg_followed *l, const dg_followed *r)
+{
+    cv_status status = dg_station_set(&g->station, g->probe.branches, l->alpha, g->why);
+    const size_t hard = g->station.hard_count;
+    if (status == CV_OK)
+        status = dg_station_set(&g->station, g->probe.branches, r->alpha, g->why);
+    const int alike = hard == g->station.hard_count;
+    return status == CV_OK ? dg_crossing_between(m, &g->station, &g->probe, l, r, alike, g->why) : status;
+}
+
+void dg_line_polish(dg_followed *f, const dg_line_graph *g)
+{
+    enum { STEPS = 12 };
+    dg_crossing *c = &f->at;
+    dg_node low, high, next;
+    if (dg_probe_at(&low, &g->probe, f->alpha, c->q_low) != CV_OK ||
+        dg_probe_at(&high, &g->probe, f->alpha, c->q_high) != CV_OK || (low.im > 0) == (high.im > 0))
+        return;
+    for (int i = 0; i < STEPS && high.q - low.q > 4 * DBL_EPSILON * high.q; i++) {
+        const double zero = low.q + low.im / (low.im - high.im) * (high.q - low.q);
+        const double beside = fmax(2 * DBL_EPSILON * zero, 1e-3 * fmin(zero - low.q, high.q - zero));
+        const double q = i % 2 ? zero + beside : zero - beside;
+        if (!(q > low.q && q < high.q) || dg_probe_at(&next, &g->probe, f->alpha, q) != CV_OK)
+            break;
+        *((next.im > 0) == (low.im > 0) ? &low : &high) = next;
+    }
+    const double part = low.im / (low.im - high.im);
+    c->q_low = low.q;
+    c->q_high = high.q;
+    c->q = low.q + part * (high.q - low.q);
+    c->x = low.re + part * (high.re - low.re);
+    c->x_low = fmin(low.re - low.re_error, high.re - high.re_error);
+    c->x_high = fmax(low.re + low.re_error, high.re + high.re_error);
+}
+
+static int in_doubt(const dg_lines *l, double alpha)
+{
+    for (size_t i = 0; i < l->doubt_count; i++)
+        if (alpha >= l->doubts[i].alpha_low && alpha <= l->doubts[i].alpha_high)
+            return 1;
+    return 0;
+}
+
+/* Adds the line from l to r to the balance if it passes alpha beyond x. */
+static cv_status weigh(int *balance, dg_line_graph *g, const dg_line_node *a, const dg_line_node *b,
+                       double alpha, double x)
+{
+    const dg_followed *l = &a->is, *r = &b->is;
+    if (a->turns || b->turns)
+        return CV_UNDECIDED; /* as near to a turning point as doubles go */
+    if (fmax(l->at.x, r->at.x) * CLEARLY < x)
+        return CV_OK;
+    if (fmin(l->at.x, r->at.x) > x * CLEARLY) {
+        *balance += 2 * l->at.direction;
+        return CV_OK;
+    }
+    dg_followed m = {alpha, alpha == l->alpha ? l->at : r->at};
+    if (alpha > l->alpha && alpha < r->alpha) {
+        const cv_status status = dg_line_between(&m, g, l, r);
+        if (status != CV_OK)
+            return status;
+    }
+    if (m.at.x_low <= x && m.at.x_high >= x)
+        dg_line_polish(&m, g);
+    if (m.at.x_low <= x && m.at.x_high >= x)
+        return CV_UNDECIDED;
+    *balance += m.at.x > x ? 2 * m.at.direction : 0;
+    return CV_OK;
+}
+
+cv_status dg_lines_count(int *roots, const dg_lines *l, double alpha, double mass_ratio, cv_message *why)
+{
+    dg_line_graph *g = l->graph;
+    if (!(alpha >= l->alpha_min && alpha <= l->alpha_max && mass_ratio > 0 && mass_ratio <= l->mass_max))
+        return cv_fail(why, CV_BAD_INPUT, "alpha = %.17g, eta_M = %.17g is outside the range", alpha,
+                       mass_ratio);
+    cv_status status = in_doubt(l, alpha) ? CV_UNDECIDED : CV_OK;
+    *roots = 0;
+    for (size_t i = 0; i < g->node_count && status == CV_OK; i++) {
+        const dg_line_node *a = &g->nodes[i];
+        const int next = a->turns ? DG_LINE_NONE : a->link[DG_LINE_HIGHER];
+        if (next == DG_LINE_NONE)
+            continue;
+        const dg_line_node *b = &g->nodes[next];
+        /* the last velocity belongs to the last cell */
+        if (a->is.alpha <= alpha && (alpha < b->is.alpha || (alpha == b->is.alpha && alpha == l->alpha_max)))
+            status = weigh(roots, g, a, b, alpha, 1 / mass_ratio);
+    }
+    if (status != CV_OK)
+        return cv_fail(why, status, "on a line or in doubt at alpha = %.17g, eta_M = %.17g", alpha,
+                       mass_ratio);
+    return CV_OK;
+}
+
+/* The hunt for passages on the line from l to r */
+typedef struct {
+    dg_line_graph *g;
+    dg_followed l, r;
+    double x;
+    size_t count, room;
+    dg_line_passage *found;
+} hunt;
+
+static cv_status excess(dg_sample *s, void *context)
+{
+    hunt *h = context;
+    dg_followed m = {.alpha = s->at};
+    const cv_status status = dg_line_between(&m, h->g, &h->l, &h->r);
+    s->value = log(m.at.x / h->x);
+    s->slope = m.at.dx / m.at.x;
+    s->aside = m.at.q;
+    return status;
+}
+
+static cv_status found(const dg_sample *low, const dg_sample *high, void *context)
+{
+    hunt *h = context;
+    const dg_hunter hunter = {excess, NULL, h};
+    dg_sample zero;
+    const cv_status status = dg_hunt_refine(&zero, &hunter, low, high);
+    if (status != CV_OK)
+        return status;
+    if (h->count == h->room) {
+        const size_t room = h->room ? 2 * h->room : 16;
+        dg_line_passage *grown = realloc(h->found, room * sizeof *grown);
+        if (grown == NULL)
+            return CV_FAILED;
+        h->found = grown;
+        h->room = room;
+    }
+    const int change = (high->value >= 0 ? 2 : -2) * h->l.at.direction;
+    h->found[h->count++] = (dg_line_passage){zero.at, zero.aside, change};
+    return CV_OK;
+}
+
+/* The passages between node a and b, its neighbour on one of its sides */
+static cv_status hunt_between(hunt *h, const dg_line_node *a, const dg_line_node *b)
+{
+    const dg_hunter hunter = {excess, found, h};
+    h->l = a->is;
+    h->r = b->is;
+    if (fmax(h->l.at.x, h->r.at.x) * CLEARLY < h->x || fmin(h->l.at.x, h->r.at.x) > h->x * CLEARLY)
+        return CV_OK;
+    const dg_sample low = {h->l.alpha, log(h->l.at.x / h->x), h->l.at.dx / h->l.at.x, h->l.at.q};
+    const dg_sample high = {h->r.alpha, log(h->r.at.x / h->x), h->r.at.dx / h->r.at.x, h->r.at.q};
+    return dg_hunt_zeros(&hunter, &low, &high);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = ((const dg_line_passage *)a)->alpha, y = ((const dg_line_passage *)b)->alpha;
+    return (x > y) - (x < y);
+}
+
+cv_status dg_lines_passages(dg_line_passage **out, size_t *count, const dg_lines *l, double mass_ratio,
+                            cv_message *why)
+{
+    dg_line_graph *g = l->graph;
+    hunt h = {.g = g, .x = 1 / mass_ratio};
+    cv_status status = mass_ratio >= l->mass_min && mass_ratio <= l->mass_max ? CV_OK : CV_BAD_INPUT;
+    for (size_t i = 0; i < g->node_count && status == CV_OK; i++) {
+        const dg_line_node *a = &g->nodes[i];
+        if (a->turns || a->link[DG_LINE_HIGHER] == DG_LINE_NONE)
+            continue;
+        const dg_line_node *b = &g->nodes[a->link[DG_LINE_HIGHER]];
+        if (!b->turns)
+            status = hunt_between(&h, a, b);
+        else if ((a->is.at.x > h.x) != (b->is.at.x > h.x))
+            status = CV_UNDECIDED; /* in the turning point itself */
+    }
+    *out = h.found;
+    *count = h.count;
+    if (status == CV_OK) {
+        if (h.count > 0)
+            qsort(h.found, h.count, sizeof *h.found, ascending);
+        return CV_OK;
+    }
+    free(h.found);
+    *out = NULL;
+    *count = 0;
+    return cv_fail(why, status, "passages of the mass ratio %.17g not resolved", mass_ratio);
+}
