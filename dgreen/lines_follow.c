@@ -5,9 +5,9 @@
 #include "dgreen/velocities.h"
 
 enum { MAX_DEPTH = 40 };
-/* log x counts as smooth between two samples when the trapezoidal rule on its slopes misses the change by
- * less than this part of the change, or by this much. */
-static const double CHANGE_TOLERANCE = 0.25, LOG_TOLERANCE = 0.05;
+/* log x counts as smooth between two samples when the trapezoidal rule on its slopes misses the change by less
+ * than this part of the change and this much more, at most by LARGEST_TOLERANCE. */
+static const double CHANGE_TOLERANCE = 0.25, LOG_TOLERANCE = 0.05, LARGEST_TOLERANCE = 0.3;
 /* Chord error of the polyline before vertices are left out, units of the plot */
 static const double CHORD = 3e-4;
 /* Beyond this many times the greatest x of the range nothing is drawn. */
@@ -17,7 +17,8 @@ static int smooth(const dg_followed *l, const dg_followed *r)
 {
     const double change = log(r->at.x / l->at.x);
     const double trapezoid = (r->alpha - l->alpha) * (l->at.dx / l->at.x + r->at.dx / r->at.x) / 2;
-    return fabs(change - trapezoid) <= CHANGE_TOLERANCE * fabs(change) + LOG_TOLERANCE;
+    return fabs(change - trapezoid) <=
+           fmin(CHANGE_TOLERANCE * fabs(change) + LOG_TOLERANCE, LARGEST_TOLERANCE);
 }
 
 static int out_of_range(const dg_line_graph *g, const dg_followed *l, const dg_followed *r)

@@ -124,14 +124,8 @@ static cv_status excess(dg_sample *s, void *context)
     return status;
 }
 
-static cv_status found(const dg_sample *low, const dg_sample *high, void *context)
+static cv_status add_passage(hunt *h, double alpha, double q, int change)
 {
-    hunt *h = context;
-    const dg_hunter hunter = {excess, NULL, h};
-    dg_sample zero;
-    const cv_status status = dg_hunt_refine(&zero, &hunter, low, high);
-    if (status != CV_OK)
-        return status;
     if (h->count == h->room) {
         const size_t room = h->room ? 2 * h->room : 16;
         dg_line_passage *grown = realloc(h->found, room * sizeof *grown);
@@ -140,9 +134,32 @@ static cv_status found(const dg_sample *low, const dg_sample *high, void *contex
         h->found = grown;
         h->room = room;
     }
-    const int change = (high->value >= 0 ? 2 : -2) * h->l.at.direction;
-    h->found[h->count++] = (dg_line_passage){zero.at, zero.aside, change};
+    h->found[h->count++] = (dg_line_passage){alpha, q, change};
     return CV_OK;
+}
+
+static cv_status found(const dg_sample *low, const dg_sample *high, void *context)
+{
+    hunt *h = context;
+    const dg_hunter hunter = {excess, NULL, h};
+    dg_sample zero;
+    const cv_status status = dg_hunt_refine(&zero, &hunter, low, high);
+    const int change = (high->value >= 0 ? 2 : -2) * h->l.at.direction;
+    return status == CV_OK ? add_passage(h, zero.at, zero.aside, change) : status;
+}
+
+/* In the turning point itself, where doubles do not resolve alpha: on the side where the pair exists, the
+ * crossing with the greater x alone counts. */
+static cv_status pass_tip(hunt *h, const dg_line_node *tip)
+{
+    const dg_line_node *a = &h->g->nodes[tip->link[0]], *b = &h->g->nodes[tip->link[1]];
+    if ((a->is.at.x > h->x) == (b->is.at.x > h->x))
+        return CV_OK;
+    const dg_line_node *greater = a->is.at.x > b->is.at.x ? a : b;
+    const double part = log(h->x / a->is.at.x) / log(b->is.at.x / a->is.at.x);
+    const int born = a->is.alpha > tip->is.alpha;
+    return add_passage(h, tip->is.alpha, a->is.at.q + part * (b->is.at.q - a->is.at.q),
+                       (born ? 2 : -2) * greater->is.at.direction);
 }
 
 /* The passages between node a and b, its neighbour on one of its sides */
@@ -172,13 +189,11 @@ cv_status dg_lines_passages(dg_line_passage **out, size_t *count, const dg_lines
     cv_status status = mass_ratio >= l->mass_min && mass_ratio <= l->mass_max ? CV_OK : CV_BAD_INPUT;
     for (size_t i = 0; i < g->node_count && status == CV_OK; i++) {
         const dg_line_node *a = &g->nodes[i];
-        if (a->turns || a->link[DG_LINE_HIGHER] == DG_LINE_NONE)
-            continue;
-        const dg_line_node *b = &g->nodes[a->link[DG_LINE_HIGHER]];
-        if (!b->turns)
-            status = hunt_between(&h, a, b);
-        else if ((a->is.at.x > h.x) != (b->is.at.x > h.x))
-            status = CV_UNDECIDED; /* in the turning point itself */
+        const int next = a->link[DG_LINE_HIGHER];
+        if (a->turns)
+            status = pass_tip(&h, a);
+        else if (next != DG_LINE_NONE && !g->nodes[next].turns)
+            status = hunt_between(&h, a, &g->nodes[next]);
     }
     *out = h.found;
     *count = h.count;

@@ -137,7 +137,8 @@ static void mark(const dg_line_graph *g, const dg_line_piece *p, size_t greatest
     size_t last = 0;
     stays[0] = 1;
     for (size_t i = 1; i < p->count; i++) {
-        if (i + 1 != p->count && i != greatest && !p->points[i].turns && i != p->count / 2)
+        if (i + 1 != p->count && i != greatest && !p->points[i].turns &&
+            !(p->exits[0] == DG_LINE_CLOSED && i == p->count / 2))
             continue;
         stays[i] = 1;
         thin(g, p, stays, last, i);
