@@ -7,8 +7,10 @@
 #include "dgreen/lines_graph.h"
 #include "dgreen/velocities.h"
 
-/* The curves are listed down to this part of the smallest 1/eta_M. */
-static const double FLOOR = 0.3;
+/* Lines are followed to this many times the greatest eta_M, but not beyond LARGEST_MASS on that account; the
+ * curves are listed down to this part of the smallest 1/eta_M. */
+static const double BEYOND = 100, LARGEST_MASS = 1e6, FLOOR = 0.3;
+enum { ASYMPTOTE_DIGITS = 20 };
 
 static void graph_free(dg_line_graph *g)
 {
@@ -28,6 +30,7 @@ void dg_lines_clear(dg_lines *l)
         free(l->lines[i].vertices);
     free(l->lines);
     free(l->doubts);
+    dg_asymptote_list_clear(&l->asymptotes);
     graph_free(l->graph);
     memset(l, 0, sizeof *l);
 }
@@ -59,6 +62,9 @@ static cv_status search(dg_line_graph *g)
     cv_status status = dg_velocities_choose(&v, g->probe.branches, g->alpha_min, g->alpha_max, 0, g->why);
     if (status == CV_OK)
         status = walk(g, &v, columns);
+    if (status == CV_OK)
+        status = dg_asymptotes_find(&g->lines->asymptotes, g->track, g->branches, g->alpha_min, g->alpha_max,
+                                    ASYMPTOTE_DIGITS, g->why);
     if (status == CV_OK)
         status = dg_line_collect(g);
     dg_curve_clear(&columns[0].curve);
@@ -94,11 +100,13 @@ cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min
                       .mass_min = mass_min,
                       .mass_max = mass_max,
                       .graph = g};
+    const double hidden = fmax(mass_max, fmin(BEYOND * mass_max, LARGEST_MASS));
     *g = (dg_line_graph){.alpha_min = alpha_min,
                          .alpha_max = alpha_max,
                          .x_min = 1 / mass_max,
                          .x_max = 1 / mass_min,
-                         .x_floor = FLOOR / mass_max,
+                         .x_hidden = 1 / hidden,
+                         .x_floor = FLOOR / hidden,
                          .scale_alpha = alpha_max - alpha_min,
                          .scale_log = log(mass_max / mass_min),
                          .lines = out,

@@ -16,7 +16,7 @@
 #include <mpfr.h>
 #include <stddef.h>
 
-#include "dgreen/operator.h"
+#include "dgreen/asymptotes.h"
 
 typedef struct {
     double alpha, q, mass_ratio;
@@ -30,8 +30,8 @@ typedef struct {
 /* How a line ends. */
 typedef enum {
     DG_LINE_CLOSED,        /* it does not: the last vertex is the first */
-    DG_LINE_INFINITE_MASS, /* eta_M grows beyond the range and on to infinity, q to 0, at the velocity
-                              "asymptote" */
+    DG_LINE_INFINITE_MASS, /* eta_M grows beyond the range and on to infinity at a certain velocity: there q
+                              -> 0 (dgreen/asymptotes.h), or zeta = 0 at a finite q */
     DG_LINE_TOP,           /* leaves the range at the greatest eta_M */
     DG_LINE_BOTTOM,        /* leaves it at the smallest eta_M */
     DG_LINE_ALPHA_MIN,     /* at the lowest velocity */
@@ -46,7 +46,8 @@ typedef struct {
     size_t count;
     dg_line_vertex *vertices; /* closed lines: the last repeats the first */
     dg_line_exit exits[2];    /* at the first and the last vertex */
-    double asymptotes[2];     /* DG_LINE_INFINITE_MASS: that velocity; else 0 */
+    double asymptote[2];      /* DG_LINE_INFINITE_MASS: that velocity; else 0 */
+    double asymptote_q[2];    /* and the frequency there */
     int zero_mass; /* 1: it runs to zero mass as alpha grows: eta_M falls with alpha where it leaves the
                       range at the bottom or at the highest velocity */
     size_t least;  /* the vertex with the smallest eta_M */
@@ -61,7 +62,8 @@ typedef struct {
 typedef struct {
     double alpha_min, alpha_max, mass_min, mass_max;
     size_t count, doubt_count;
-    dg_line *lines; /* ordered by their lowest velocity */
+    dg_asymptote_list asymptotes; /* to 20 digits, in the range of alpha */
+    dg_line *lines;               /* ordered by their lowest velocity */
     dg_line_doubt *doubts;
     struct dg_line_graph *graph; /* private: all points */
 } dg_lines;

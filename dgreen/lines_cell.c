@@ -23,7 +23,7 @@ typedef struct {
 
 static int hidden(const dg_line_graph *g, const dg_crossing *c)
 {
-    return c->x < g->x_min;
+    return c->x < g->x_hidden;
 }
 
 /* The crossings i and i + 1 of one column that have no partners, and meet before the other column */
@@ -84,7 +84,7 @@ static int dips_matter(const cell *c, int which)
     const double width = (c->right->curve.at.alpha - c->left->curve.at.alpha) * (which ? -1 : 1);
     for (size_t i = 0; i < curve->dip_count; i++) {
         const dg_dip *d = &curve->dips[i];
-        if (d->re < DIP_REACH * c->g->x_min || d->im * d->d_im * width > 0 ||
+        if (d->re < DIP_REACH * c->g->x_hidden || d->im * d->d_im * width > 0 ||
             fabs(d->im) > DIP_SAFETY * fabs(d->d_im * width))
             continue;
         int known = 0;

@@ -101,6 +101,44 @@ static cv_status push_boundary(dg_line_graph *g, dg_line_piece *p, dg_line_exit 
     return status == CV_OK ? dg_line_piece_push(p, &point, g->why) : status;
 }
 
+/* The end "end" of a piece that leaves the range at the greatest eta_M with node i of the order: it may come
+ * back, or run to infinity. */
+static void look_beyond(collector *c, dg_line_piece *p, size_t i, int end)
+{
+    const dg_line_graph *g = c->g;
+    const size_t last = end ? c->count - 1 : 0;
+    if (p->exits[end] != DG_LINE_TOP || c->closed)
+        return;
+    for (;; i += end ? 1 : (size_t)-1) {
+        const dg_line_node *n = &g->nodes[c->order[i]];
+        if (beyond(g, n) >= 0)
+            return; /* back again */
+        if (i == last)
+            break;
+    }
+    const dg_line_node *h = &g->nodes[c->order[last]], *before = &g->nodes[c->order[end ? last - 1 : 1]];
+    if (h->exit[end ? c->last_side : c->first_side] == DG_LINE_TOP &&
+        dg_line_runs_to_infinity(&p->asymptote[end], &p->asymptote_q[end], c->g, &before->is, &h->is))
+        p->exits[end] = DG_LINE_INFINITE_MASS;
+}
+
+/* One end of a piece whose outermost node inside the range is node i of the order */
+static cv_status end_piece(collector *c, dg_line_piece *p, size_t i, int end)
+{
+    dg_line_graph *g = c->g;
+    const dg_line_node here = g->nodes[c->order[i]];
+    p->asymptote[end] = p->asymptote_q[end] = 0;
+    if (i == (end ? c->count - 1 : 0)) {
+        p->exits[end] = c->closed ? DG_LINE_CLOSED : here.exit[end ? c->last_side : c->first_side];
+        return CV_OK;
+    }
+    const size_t outside = end ? i + 1 : i - 1;
+    const cv_status status = push_boundary(g, p, &p->exits[end], &here, &g->nodes[c->order[outside]]);
+    if (status == CV_OK)
+        look_beyond(c, p, outside, end);
+    return status;
+}
+
 /* Cuts the line in c->order into pieces inside the range. */
 static cv_status cut(collector *c)
 {
@@ -111,19 +149,14 @@ static cv_status cut(collector *c)
         const dg_line_node here = g->nodes[c->order[i]];
         if (beyond(g, &here))
             continue;
-        if (p.count == 0 && i > 0)
-            status = push_boundary(g, &p, &p.exits[0], &here, &g->nodes[c->order[i - 1]]);
-        else if (p.count == 0)
-            p.exits[0] = c->closed ? DG_LINE_CLOSED : here.exit[c->first_side];
+        if (p.count == 0)
+            status = end_piece(c, &p, i, 0);
         if (status == CV_OK)
             status = dg_line_piece_push(&p, &here, g->why);
-        const int last = i + 1 == c->count;
-        if (last)
-            p.exits[1] = c->closed ? DG_LINE_CLOSED : here.exit[c->last_side];
-        else if (status == CV_OK && beyond(g, &g->nodes[c->order[i + 1]]))
-            status = push_boundary(g, &p, &p.exits[1], &here, &g->nodes[c->order[i + 1]]);
-        else
+        if (i + 1 < c->count && !beyond(g, &g->nodes[c->order[i + 1]]))
             continue;
+        if (status == CV_OK)
+            status = end_piece(c, &p, i, 1);
         if (status == CV_OK)
             status = dg_line_finish(g, &p);
         p.count = 0;

@@ -5,8 +5,8 @@
 #include "dgreen/velocities.h"
 
 enum { MAX_DEPTH = 40 };
-/* log x counts as smooth between two samples when the trapezoidal rule on its slopes misses the change by less
- * than this part of the change and this much more, at most by LARGEST_TOLERANCE. */
+/* log x counts as smooth between two samples when the trapezoidal rule on its slopes misses the change by
+ * less than this part of the change and this much more, at most by LARGEST_TOLERANCE. */
 static const double CHANGE_TOLERANCE = 0.25, LOG_TOLERANCE = 0.05, LARGEST_TOLERANCE = 0.3;
 /* Chord error of the polyline before vertices are left out, units of the plot */
 static const double CHORD = 3e-4;
@@ -23,7 +23,7 @@ static int smooth(const dg_followed *l, const dg_followed *r)
 
 static int out_of_range(const dg_line_graph *g, const dg_followed *l, const dg_followed *r)
 {
-    return fmax(l->at.x, r->at.x) < g->x_min || fmin(l->at.x, r->at.x) > FAR * g->x_max;
+    return fmax(l->at.x, r->at.x) < g->x_hidden || fmin(l->at.x, r->at.x) > FAR * g->x_max;
 }
 
 static cv_status follow(dg_line_graph *g, int a, int b, int alike, int depth)

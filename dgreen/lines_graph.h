@@ -28,6 +28,7 @@ typedef struct dg_line_graph {
     dg_probe probe; /* of the three */
     double alpha_min, alpha_max;
     double x_min, x_max;           /* 1/eta_M at the ends of the range */
+    double x_hidden;               /* lines are followed down to this, so that it is known where they end */
     double x_floor;                /* crossings below are not seen */
     double scale_alpha, scale_log; /* of the plot: lengths of the ranges of alpha and log eta_M */
     size_t node_count, node_room;
@@ -80,6 +81,11 @@ cv_status dg_line_between(dg_followed *m, dg_line_graph *g, const dg_followed *l
 /* Narrows the bracket of a crossing as far as doubles go; the rest of it follows. Never fails: what cannot be
  * certified stays as wide as it is. */
 void dg_line_polish(dg_followed *f, const dg_line_graph *g);
+
+/* Where the line whose last crossings are "before" and h, beyond the greatest eta_M of the range, runs on to
+ * infinity. 0: it is not known to do so. */
+int dg_line_runs_to_infinity(double *alpha, double *q, dg_line_graph *g, const dg_followed *before,
+                             const dg_followed *h);
 
 /* Turns the linked nodes into lines. */
 cv_status dg_line_collect(dg_line_graph *g);

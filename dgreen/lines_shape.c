@@ -7,6 +7,8 @@
 /* Distance from the chord up to which a point is left out, units of the plot */
 static const double THIN = 6e-4;
 enum { MAX_STEPS = 60 };
+/* A vertex stays where it is when its x at exactly this double alpha differs more (relative) */
+static const double SAME_X = 1e-6;
 
 cv_status dg_line_piece_push(dg_line_piece *p, const dg_line_node *point, cv_message *why)
 {
@@ -151,6 +153,8 @@ static dg_line_vertex vertex(const dg_line_graph *g, const dg_line_node *n)
     dg_followed is = n->is;
     if (!n->turns)
         dg_line_polish(&is, g);
+    if (!(fabs(log(is.at.x / n->is.at.x)) < SAME_X))
+        is = n->is; /* so steep that a spacing of alpha changes x */
     const dg_crossing *c = &is.at;
     const double error = n->turns ? 0 : fmax(c->q_high - c->q, c->q - c->q_low);
     return (dg_line_vertex){is.alpha, c->q, 1 / c->x, error, c->scale, n->turns, n->stable_roots};
@@ -182,7 +186,10 @@ cv_status dg_line_finish(dg_line_graph *g, dg_line_piece *p)
     if (status != CV_OK)
         return status;
     char *stays = calloc(p->count, 1);
-    dg_line line = {.vertices = calloc(p->count, sizeof *line.vertices), .exits = {p->exits[0], p->exits[1]}};
+    dg_line line = {.vertices = calloc(p->count, sizeof *line.vertices),
+                    .exits = {p->exits[0], p->exits[1]},
+                    .asymptote = {p->asymptote[0], p->asymptote[1]},
+                    .asymptote_q = {p->asymptote_q[0], p->asymptote_q[1]}};
     if (stays == NULL || line.vertices == NULL) {
         free(stays);
         free(line.vertices);
