@@ -235,7 +235,7 @@ cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, con
     dg_velocities v = {0};
     memset(list, 0, sizeof *list);
     mpfr_inits2(53, f.alpha, f.s0, f.s1, f.more, (mpfr_ptr)NULL);
-    cv_status status = dg_velocities_choose(&v, branches, alpha_min, alpha_max, why);
+    cv_status status = dg_velocities_choose(&v, branches, alpha_min, alpha_max, 0, why);
     if (status == CV_OK)
         status = scan(&f, &v);
     if (list->count > 0)
