@@ -49,7 +49,7 @@ static cmp_line_end end_of(const dg_line *line, int e)
         [DG_LINE_TOP] = CMP_END_MASS_HIGH,       [DG_LINE_BOTTOM] = CMP_END_MASS_LOW,
         [DG_LINE_ALPHA_MIN] = CMP_END_ALPHA_LOW, [DG_LINE_ALPHA_MAX] = CMP_END_ALPHA_HIGH,
         [DG_LINE_UNDECIDED] = CMP_END_UNDECIDED};
-    const double asymptote = line->exits[e] == DG_LINE_INFINITE_MASS ? line->asymptotes[e] : (double)NAN;
+    const double asymptote = line->exits[e] == DG_LINE_INFINITE_MASS ? line->asymptote[e] : (double)NAN;
     return (cmp_line_end){kinds[line->exits[e]], asymptote, (double)NAN};
 }
 
