@@ -29,7 +29,7 @@ typedef struct {
 struct sa_field {
     const sa_map *map;
     const sa_track *track;
-    double re_floor;
+    double re_floor, resolution;
     size_t column;
     int side_u, strip, side_t;
     unsigned long column_stamp, block_stamp, clock;
@@ -48,6 +48,7 @@ sa_field *sa_field_new(const sa_map *map, const sa_track *track, double re_floor
     f->map = map;
     f->track = track;
     f->re_floor = re_floor;
+    f->resolution = SA_FIELD_RESOLUTION;
     f->nodes = calloc(NODES, sizeof *f->nodes);
     f->samples = calloc(SAMPLES, sizeof *f->samples);
     int complete = f->nodes != NULL && f->samples != NULL;
@@ -84,6 +85,11 @@ sa_counts sa_field_counts(const sa_field *field)
             sum.largest_precision = c.largest_precision;
     }
     return sum;
+}
+
+void sa_field_resolution(sa_field *field, double resolution)
+{
+    field->resolution = resolution;
 }
 
 void sa_field_block(sa_field *field, size_t column, int side_u, int strip, int side_t)
@@ -132,7 +138,8 @@ const sa_map_node *sa_field_node(sa_field *field, double u)
 typedef struct {
     const sa_map_node *node;
     int strip, side_t;
-    double t, x, y;
+    double t, extent_t;
+    double x, y;
 } place;
 
 /* The warm start used nearest to here in this block, else the one unused for longest. Poles depend on the
@@ -169,7 +176,7 @@ static void approach(sa_field *field, warm_start *warm, const place *here)
         sa_map_point point;
         sa_value ignored;
         double y = from + (here->y - from) * i / (steps + 1);
-        sa_map_point_at(&point, here->node, here->strip, here->side_t, here->t * y / here->y);
+        sa_map_point_at(&point, here->node, here->strip, here->side_t, y / here->extent_t);
         (void)sa_zeta_double(&ignored, warm->sweep, field->track, point.alpha, point.q);
     }
     warm->x = here->x;
@@ -178,53 +185,75 @@ static void approach(sa_field *field, warm_start *warm, const place *here)
     warm->used = ++field->clock;
 }
 
-/* The sign of Im zeta, or its size to a tenth, is not known although it matters. */
-static int vague(const sa_value *v, double re_floor)
-{
-    return !(v->im_error < 0.1 * fabs(v->im)) && !(v->re + v->re_error < re_floor);
-}
+/* What a sample must tell: at a corner of a cell the sign of Im zeta, on a line Im zeta = 0 its place. */
+typedef enum { SIGN, PLACE } purpose;
 
-static cv_status evaluate(sa_sample *s, sa_field *field, const place *here, int certain)
+static void set_sample(sa_sample *s, const sa_value *v, const sa_map_point *point)
 {
-    const double lowest_q = 1e-9, tolerance = 0.05, nudge = 1e-13;
-    sa_value v;
-    sa_map_point at, *point = &at;
-    warm_start *warm = choose(field, here);
-    sa_map_point_at(point, here->node, here->strip, here->side_t, here->t);
-    approach(field, warm, here);
-    s->alpha = point->alpha;
-    s->q = fmax(point->q, lowest_q);
-    cv_status status = sa_zeta_double(&v, warm->sweep, field->track, s->alpha, s->q);
-    if (status == CV_UNDECIDED || (status == CV_OK && certain && vague(&v, field->re_floor)))
-        status = sa_zeta_adaptive(&v, warm->sweep, field->track, s->alpha, s->q, tolerance);
-    if (status == CV_UNDECIDED) { /* a pole at infinity, at the shear speed and nowhere else */
-        s->alpha *= 1 + nudge;
-        status = sa_zeta_adaptive(&v, warm->sweep, field->track, s->alpha, s->q, tolerance);
-    }
-    if (status != CV_OK)
-        return status;
-    s->re = v.re;
-    s->im = v.im;
-    s->re_error = v.re_error;
-    s->im_error = v.im_error;
-    s->re_alpha = creal(v.d_alpha);
-    s->im_alpha = cimag(v.d_alpha);
-    s->re_q = creal(v.d_q);
-    s->im_q = cimag(v.d_q);
+    s->re = v->re;
+    s->im = v->im;
+    s->re_error = v->re_error;
+    s->im_error = v->im_error;
+    s->re_alpha = creal(v->d_alpha);
+    s->im_alpha = cimag(v->d_alpha);
+    s->re_q = creal(v->d_q);
+    s->im_q = cimag(v->d_q);
     s->re_u = s->re_alpha * point->alpha_u + s->re_q * point->q_u;
     s->im_u = s->im_alpha * point->alpha_u + s->im_q * point->q_u;
     s->re_t = s->re_q * point->q_t;
     s->im_t = s->im_q * point->q_t;
-    return CV_OK;
+}
+
+/* Double precision tells what is needed. Nothing is where Re zeta is below the floor. */
+static int sufficient(const sa_sample *s, const sa_field *field, purpose why, double accuracy)
+{
+    int placed = why == PLACE && s->im_error < field->resolution * hypot(s->im_u, s->im_t);
+    if (s->re + s->re_error < field->re_floor)
+        return 1;
+    return s->re_error < accuracy * fmax(fabs(s->re), field->re_floor) &&
+           (placed || s->im_error < 0.1 * fabs(s->im));
+}
+
+static cv_status evaluate(sa_sample *s, sa_field *field, const place *here, purpose why)
+{
+    const double lowest_q = 1e-9, nudge = 1e-13, accuracy = why == PLACE ? field->resolution : 0.01;
+    const sa_need need = {.re_rel = accuracy,
+                          .re_abs = accuracy * field->re_floor,
+                          .im_rel = 0.1,
+                          .im_share = why == PLACE ? 1e-24 : 0};
+    sa_value v;
+    sa_map_point point;
+    warm_start *warm = choose(field, here);
+    sa_map_point_at(&point, here->node, here->strip, here->side_t, here->t);
+    approach(field, warm, here);
+    s->alpha = point.alpha;
+    s->q = fmax(point.q, lowest_q);
+    cv_status status = sa_zeta_double(&v, warm->sweep, field->track, s->alpha, s->q);
+    if (status == CV_OK) {
+        set_sample(s, &v, &point);
+        if (sufficient(s, field, why, accuracy))
+            return CV_OK;
+    } else if (status != CV_UNDECIDED) {
+        return status;
+    }
+    status = sa_zeta_needed(&v, warm->sweep, field->track, s->alpha, s->q, &need);
+    if (status == CV_UNDECIDED) { /* a pole at infinity, at the shear speed and nowhere else */
+        s->alpha *= 1 + nudge;
+        status = sa_zeta_needed(&v, warm->sweep, field->track, s->alpha, s->q, &need);
+    }
+    if (status == CV_OK)
+        set_sample(s, &v, &point);
+    return status;
 }
 
 cv_status sa_field_at_node(sa_sample *out, sa_field *field, const sa_map_node *node, int strip, int side_t,
                            double t, int certain)
 {
-    place here = {node, strip, side_t, t, 0, t * sa_map_strip_extent(node, strip, side_t)};
+    double extent = sa_map_strip_extent(node, strip, side_t);
+    place here = {node, strip, side_t, t, extent, 0, t * extent};
     out->u = 0;
     out->t = t;
-    return evaluate(out, field, &here, certain);
+    return evaluate(out, field, &here, certain ? SIGN : PLACE);
 }
 
 static cv_status at(sa_sample *out, sa_field *field, double u, double t, int certain)
@@ -232,12 +261,12 @@ static cv_status at(sa_sample *out, sa_field *field, double u, double t, int cer
     const sa_map_node *node = sa_field_node(field, u);
     if (node == NULL)
         return CV_FAILED;
-    place here = {node, field->strip, field->side_t, t, 0, 0};
+    double extent = sa_map_strip_extent(node, field->strip, field->side_t);
+    place here = {node, field->strip, field->side_t, t, extent, 0, t * extent};
     here.x = u * sa_map_column_extent(&field->map->column[field->column], field->side_u);
-    here.y = t * sa_map_strip_extent(node, field->strip, field->side_t);
     out->u = u;
     out->t = t;
-    return evaluate(out, field, &here, certain);
+    return evaluate(out, field, &here, certain ? SIGN : PLACE);
 }
 
 cv_status sa_field_at(sa_sample *out, sa_field *field, double u, double t)

@@ -24,12 +24,17 @@ sa_counts sa_field_counts(const sa_field *field);
 /* Chooses the block that u and t refer to. */
 void sa_field_block(sa_field *field, size_t column, int side_u, int strip, int side_t);
 
-/* Any point of the block, in double precision where that gives a bound, else in more (then with a tenth of
- * each part). CV_UNDECIDED: no precision does; CV_FAILED: a library failed. */
+/* How well points of lines Im zeta = 0 are placed by sa_field_at, in u and t, and how accurate Re zeta is
+ * there, relative to itself or to re_floor. It is SA_FIELD_RESOLUTION until this is called. */
+#define SA_FIELD_RESOLUTION 1e-2
+void sa_field_resolution(sa_field *field, double resolution);
+
+/* Any point of the block, in double precision where that is enough to place a line that passes here, else in
+ * more. CV_UNDECIDED: no precision is; CV_FAILED: a library failed. */
 cv_status sa_field_at(sa_sample *out, sa_field *field, double u, double t);
 
-/* A corner of a cell: the same, remembered, and Im zeta known to a tenth where Re zeta >= re_floor, so that
- * its sign is certain. */
+/* A corner of a cell: remembered, Im zeta known to a tenth, so that its sign is certain, and Re zeta to a
+ * hundredth of itself or re_floor. */
 cv_status sa_field_corner(sa_sample *out, sa_field *field, double u, double t);
 
 /* Curves at u; valid until the next call. NULL when a wave cannot be computed. */

@@ -29,23 +29,25 @@ static void range_across(double *low, double *high, const sa_segment *s)
 cv_status sa_segment_point(sa_sample *out, sa_field *field, const sa_segment *segment, double x)
 {
     const sa_sample *p = &segment->from, *q = &segment->to;
-    const double close = 1e-8;
+    const double close = 1e-8, rounding = 1e-3;
     const int axis = segment->axis;
     double u = p->u + x * (q->u - p->u), t = p->t + x * (q->t - p->t), *v = axis == 0 ? &t : &u;
     double along = hypot(q->u - p->u, q->t - p->t), low, high;
     int rises = (axis == 0 ? p->im_t : p->im_u) > 0;
     range_across(&low, &high, segment);
-    double scale = fmax(high - low, 1e-3 * along);
+    double scale = fmax(high - low, 1e-3 * along), last = INFINITY;
     for (int i = 0; i < 60; ++i) {
         cv_status status = sa_field_at(out, field, u, t);
         if (status != CV_OK)
             return status;
         double step = -out->im / (axis == 0 ? out->im_t : out->im_u);
-        if (!(fabs(step) > close * scale) || fabs(out->im) <= 2 * out->im_error || !(high > low)) {
+        int stopped = last < rounding * scale && !(fabs(step) < 0.5 * last); /* by doubles for alpha and q */
+        if (!(fabs(step) > close * scale) || fabs(out->im) <= 2 * out->im_error || !(high > low) || stopped) {
             if (fabs(step) <= close * scale)
                 shift(out, axis == 0 ? 0 : step, axis == 0 ? step : 0);
             return CV_OK;
         }
+        last = fabs(step);
         if ((out->im > 0) == rises)
             high = *v;
         else

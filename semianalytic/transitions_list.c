@@ -43,13 +43,15 @@ static int within(const mpfr_t a, const mpfr_t b, double bound)
     return yes;
 }
 
-/* A line found in two neighbouring cells gives the same point twice. */
+/* A line found in two neighbouring cells gives the same point twice. One that could not be refined has no
+ * bounds and is joined to nothing. */
 static void join_equal(sa_transitions *list)
 {
     size_t kept = 0;
     for (size_t i = 0; i < list->count; ++i) {
         sa_transition *a = &list->items[i], *b = kept > 0 ? &list->items[kept - 1] : NULL;
-        if (b != NULL && within(a->alpha, b->alpha, a->alpha_error + b->alpha_error) &&
+        if (b != NULL && a->decided == CV_OK && b->decided == CV_OK &&
+            within(a->alpha, b->alpha, a->alpha_error + b->alpha_error) &&
             within(a->q, b->q, a->q_error + b->q_error))
             mpfr_clears(a->alpha, a->q, (mpfr_ptr)0);
         else

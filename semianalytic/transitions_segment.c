@@ -30,9 +30,9 @@ static cv_status append(sa_candidates *list, sa_candidate item)
 }
 
 /* Re zeta passes the level once between a and b, monotone. */
-static cv_status pass(const walk *w, const station *a, const station *b, size_t level)
+static cv_status locate(sa_sample *found, const walk *w, const station *a, const station *b, double target)
 {
-    double target = w->levels->level[level], from = a->at.re - target;
+    double from = a->at.re - target;
     double low = a->x, high = b->x, x = low + (high - low) * from / (a->at.re - b->at.re);
     sa_sample s = a->at;
     for (int i = 0; i < 60; ++i) {
@@ -48,6 +48,49 @@ static cv_status pass(const walk *w, const station *a, const station *b, size_t 
             break;
         x = x + step > low && x + step < high ? x + step : (low + high) / 2;
     }
+    *found = s;
+    return CV_OK;
+}
+
+/* Newton's iteration in (u, t) from s, which double precision has found. CV_UNDECIDED: it does not converge
+ * at once. */
+static cv_status polish(sa_sample *s, sa_field *field, double target)
+{
+    enum { STEPS = 8 };
+    const double close = 1e-9, rounding = 1e-4;
+    double last = INFINITY;
+    for (int i = 0; i < STEPS; ++i) {
+        cv_status status = sa_field_at(s, field, s->u, s->t);
+        if (status != CV_OK)
+            return status;
+        double det = s->re_u * s->im_t - s->re_t * s->im_u, f = s->re - target;
+        double du = (s->re_t * s->im - s->im_t * f) / det, dt = (s->im_u * f - s->re_u * s->im) / det;
+        double size = hypot(du, dt), u = s->u + du, t = s->t + dt;
+        if (size < close || (last < rounding && size < rounding && !(size < 0.1 * last)))
+            return CV_OK;
+        if (!(size < 0.5 * last) || !(u >= 0 && u <= 1 && t >= 0 && t <= 1))
+            return CV_UNDECIDED;
+        last = size;
+        s->u = u;
+        s->t = t;
+    }
+    return CV_UNDECIDED;
+}
+
+static cv_status pass(const walk *w, const station *a, const station *b, size_t level)
+{
+    const double resolution = 1e-8, target = w->levels->level[level];
+    sa_sample s;
+    cv_status status = locate(&s, w, a, b, target);
+    if (status != CV_OK)
+        return status;
+    sa_field_resolution(w->field, resolution);
+    status = polish(&s, w->field, target);
+    if (status == CV_UNDECIDED)
+        status = locate(&s, w, a, b, target);
+    sa_field_resolution(w->field, SA_FIELD_RESOLUTION);
+    if (status != CV_OK)
+        return status;
     sa_candidate c = {level, s.alpha, s.q, {{s.re_alpha, s.re_q}, {s.im_alpha, s.im_q}}};
     return append(&w->levels->found, c);
 }

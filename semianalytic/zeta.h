@@ -66,6 +66,17 @@ cv_status sa_zeta_complex(sa_value *out, sa_sweep *state, const sa_track *t, dou
 cv_status sa_zeta_adaptive(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q,
                            double rel_tol);
 
+/* What is asked of the two parts: re_error <= re_rel |re| or <= re_abs, im_error <= im_rel |im| or <=
+ * im_share |zeta|. */
+typedef struct {
+    double re_rel, re_abs, im_rel, im_share;
+} sa_need;
+
+/* sa_zeta_adaptive with that in the place of rel_tol, of which re_rel and im_rel must be at least 1e-15 each.
+ */
+cv_status sa_zeta_needed(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q,
+                         const sa_need *need);
+
 enum { SA_PRECISION_MAX = 4096 };
 
 /* zeta at the exact point (alpha, q), computed with the precision of mpc_get_prec(zeta), and proven bounds

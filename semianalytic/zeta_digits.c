@@ -99,9 +99,10 @@ cv_status sa_zeta_mp(mpc_t zeta, mpfr_t re_error, mpfr_t im_error, sa_sweep *sta
     return status;
 }
 
-static int close_enough(double part, double error, double rel_tol)
+static int satisfied(const sa_value *v, const sa_need *need)
 {
-    return error <= rel_tol * fabs(part);
+    return (v->re_error <= need->re_rel * fabs(v->re) || v->re_error <= need->re_abs) &&
+           (v->im_error <= need->im_rel * fabs(v->im) || v->im_error <= need->im_share * hypot(v->re, v->im));
 }
 
 /* One part of a box as a double with its bound: the midpoint is rounded once more. */
@@ -160,22 +161,24 @@ static cv_status evaluate_at(sa_value *out, sa_sweep *state, const sa_track *t, 
     return status;
 }
 
-cv_status sa_zeta_adaptive(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q,
-                           double rel_tol)
+cv_status sa_zeta_needed(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q,
+                         const sa_need *need)
 {
     cv_status status = sa_zeta_double(out, state, t, alpha, q);
-    int done = status == CV_OK && close_enough(out->re, out->re_error, rel_tol) &&
-               close_enough(out->im, out->im_error, rel_tol);
-    if (done || status == CV_BAD_INPUT)
+    if ((status == CV_OK && satisfied(out, need)) || status == CV_BAD_INPUT)
         return status;
     state->counts.beyond_double++;
     for (mpfr_prec_t bits = FIRST_PRECISION; bits <= SA_PRECISION_MAX; bits = 3 * (bits + 1) / 2 - 1) {
         status = evaluate_at(out, state, t, alpha, q, bits);
-        if (status == CV_OK && close_enough(out->re, out->re_error, rel_tol) &&
-            close_enough(out->im, out->im_error, rel_tol))
-            return CV_OK;
-        if (status == CV_FAILED)
+        if (status == CV_FAILED || (status == CV_OK && satisfied(out, need)))
             return status;
     }
     return CV_UNDECIDED;
+}
+
+cv_status sa_zeta_adaptive(sa_value *out, sa_sweep *state, const sa_track *t, double alpha, double q,
+                           double rel_tol)
+{
+    const sa_need need = {.re_rel = rel_tol, .im_rel = rel_tol};
+    return sa_zeta_needed(out, state, t, alpha, q, &need);
 }
