@@ -71,13 +71,12 @@ static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t 
                       const cv_number *mass_ratios, int digits, int level, cv_message *why)
 {
     handle *h = opaque;
-    (void)level;
     sa_transitions *found = calloc(mass_count, sizeof *found);
     if (found == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
     cv_status status = need_boundary(h, why);
     if (status == CV_OK)
-        status = sa_boundary_transitions(found, h->boundary, mass_count, mass_ratios, digits, why);
+        status = sa_boundary_transitions(found, h->boundary, mass_count, mass_ratios, digits, level, why);
     for (size_t i = 0; status == CV_OK && i < mass_count; i++)
         status = copy_list(&lists[i], &found[i], why);
     if (h->boundary != NULL) {

@@ -118,27 +118,39 @@ static cv_status trace(search_pass *p, int refinement)
     return sa_map_search(&p->boundary->map, p->field, &search);
 }
 
-static cv_status finish_list(sa_transitions *list, search_pass *p, size_t i, const cv_number *mass_ratio,
-                             int digits)
+/* N at the lowest velocity for every list */
+static cv_status count_starts(sa_transitions *lists, const search_pass *p, double re_low)
+{
+    sa_crossings start;
+    const sa_map *map = &p->boundary->map;
+    cv_status status = sa_crossings_find(&start, map, p->field, map->curves.alpha_min, re_low, NULL);
+    for (size_t i = 0; i < p->count && (status == CV_OK || status == CV_UNDECIDED); ++i) {
+        sa_transitions *list = &lists[p->index[i]];
+        cv_status counted = status;
+        if (status == CV_OK)
+            counted = sa_crossings_count(&list->roots_at_start, &start, p->level[i]);
+        if (counted != CV_OK)
+            sa_transitions_doubt(list, "unstable roots could not be counted at the lowest velocity");
+    }
+    sa_crossings_clear(&start);
+    return status == CV_UNDECIDED ? CV_OK : status;
+}
+
+static cv_status finish_lists(sa_transitions *lists, search_pass *p, const cv_number *mass_ratios, int digits,
+                              double re_low)
 {
     sa_boundary *b = p->boundary;
-    sa_crossings start;
-    cv_status status =
-        sa_crossings_find(&start, &b->map, p->field, b->map.curves.alpha_min, p->level[i] / 2, NULL);
-    if (status == CV_OK)
-        status = sa_crossings_count(&list->roots_at_start, &start, p->level[i]);
-    sa_crossings_clear(&start);
-    if (status == CV_UNDECIDED)
-        sa_transitions_doubt(list, "unstable roots could not be counted at the lowest velocity");
-    else if (status != CV_OK)
-        return status;
-    if (p->levels.doubtful[i])
-        sa_transitions_doubt(list, "a line touches 1 / eta_M or meets another line near alpha = %.15g",
-                             p->levels.doubtful_at[i]);
-    status = sa_transitions_assemble(list, b->sweep, b->track, &p->levels.found, i, mass_ratio, digits);
-    if (status == CV_OK)
-        status = sa_transitions_verify(list, &b->map, p->field, p->level[i]);
-    return status;
+    cv_status status = count_starts(lists, p, re_low);
+    for (size_t i = 0; i < p->count && status == CV_OK; ++i) {
+        sa_transitions *list = &lists[p->index[i]];
+        if (p->levels.doubtful[i])
+            sa_transitions_doubt(list, "a line touches 1 / eta_M or meets another line near alpha = %.15g",
+                                 p->levels.doubtful_at[i]);
+        status = sa_transitions_assemble(list, b->sweep, b->track, &p->levels.found, i,
+                                         &mass_ratios[p->index[i]], digits);
+    }
+    const sa_verification v = {&b->map, p->field, lists, p->count, p->index, p->level, re_low};
+    return status == CV_OK ? sa_transitions_verify(&v) : status;
 }
 
 static cv_status run_pass(sa_transitions *lists, search_pass *p, const cv_number *mass_ratios, int digits,
@@ -156,14 +168,13 @@ static cv_status run_pass(sa_transitions *lists, search_pass *p, const cv_number
     cv_status status = CV_FAILED;
     if (p->levels.doubtful != NULL && p->levels.doubtful_at != NULL && p->field != NULL)
         status = trace(p, refinement);
-    for (size_t i = 0; i < p->count && (status == CV_OK || status == CV_UNDECIDED); ++i) {
-        sa_transitions *list = &lists[p->index[i]];
-        sa_transitions_clear(list);
+    for (size_t i = 0; i < p->count; ++i) {
+        sa_transitions_clear(&lists[p->index[i]]);
         if (status == CV_UNDECIDED)
-            sa_transitions_doubt(list, "the search for lines Im zeta = 0 came to no end");
-        else
-            status = finish_list(list, p, i, &mass_ratios[p->index[i]], digits);
+            sa_transitions_doubt(&lists[p->index[i]], "the search for lines Im zeta = 0 came to no end");
     }
+    if (status == CV_OK)
+        status = finish_lists(lists, p, mass_ratios, digits, lowest / 2);
     status = status == CV_UNDECIDED ? CV_OK : status;
     if (p->field != NULL)
         add_counts(&p->boundary->counts, sa_field_counts(p->field));
@@ -184,24 +195,24 @@ static size_t collect_undecided(size_t *index, const sa_transitions *lists, size
 }
 
 cv_status sa_boundary_transitions(sa_transitions *lists, sa_boundary *boundary, size_t mass_count,
-                                  const cv_number *mass_ratios, int digits, cv_message *why)
+                                  const cv_number *mass_ratios, int digits, int level, cv_message *why)
 {
     enum { PASSES = 3 };
     size_t *index = calloc(mass_count, sizeof *index), pending = mass_count;
-    double *level = calloc(mass_count, sizeof *level);
-    cv_status status = index != NULL && level != NULL ? CV_OK : CV_FAILED;
+    double *levels = calloc(mass_count, sizeof *levels);
+    cv_status status = index != NULL && levels != NULL ? CV_OK : CV_FAILED;
     for (size_t i = 0; i < mass_count; ++i) {
         lists[i] = (sa_transitions){.decided = CV_UNDECIDED};
         if (status == CV_OK)
             index[i] = i;
     }
     for (int i = 0; i < PASSES && pending > 0 && status == CV_OK; ++i) {
-        search_pass p = {.boundary = boundary, .count = pending, .index = index, .level = level};
-        status = run_pass(lists, &p, mass_ratios, digits, i);
+        search_pass p = {.boundary = boundary, .count = pending, .index = index, .level = levels};
+        status = run_pass(lists, &p, mass_ratios, digits, level + i);
         pending = status == CV_OK ? collect_undecided(index, lists, mass_count) : 0;
     }
     free(index);
-    free(level);
+    free(levels);
     if (status == CV_OK)
         return CV_OK;
     for (size_t i = 0; i < mass_count; ++i)

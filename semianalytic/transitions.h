@@ -4,8 +4,9 @@
  * then refined by Newton's iteration in (alpha, q) in MPFR.
  *
  * Completeness rests on two independent things: the subdivision of the map, and N counted from the crossings
- * at alpha_min and between all neighbouring transitions (crossings.h), which must be what the transitions
- * say. Where they differ the map is searched again in finer steps; if they still do, the list is undecided.
+ * at alpha_min, at alpha_max and between all neighbouring transitions (crossings.h), which must be what the
+ * transitions say. Where they differ the map is searched again in finer steps; if they still do, the list is
+ * undecided.
  */
 #ifndef CRITVEL_SEMIANALYTIC_TRANSITIONS_H
 #define CRITVEL_SEMIANALYTIC_TRANSITIONS_H
@@ -40,10 +41,12 @@ void sa_boundary_free(sa_boundary *boundary); /* NULL allowed */
 sa_counts sa_boundary_counts(const sa_boundary *boundary);
 
 /* All transitions for each of the mass ratios eta_M > 0: lists[0 .. mass_count - 1] are filled; relative
- * errors of alpha and q below 10^-digits where a transition is decided. CV_OK also when lists are undecided;
- * on any other status all lists are empty. */
+ * errors of alpha and q below 10^-digits where a transition is decided. level 0 is the usual search; each
+ * further one begins with a finer pass over other cells, for who has reason to doubt the answer (a level more
+ * takes about twice the time). CV_OK also when lists are undecided; on any other status all lists are empty.
+ */
 cv_status sa_boundary_transitions(sa_transitions *lists, sa_boundary *boundary, size_t mass_count,
-                                  const cv_number *mass_ratios, int digits, cv_message *why);
+                                  const cv_number *mass_ratios, int digits, int level, cv_message *why);
 void sa_transitions_clear(sa_transitions *list);
 
 /* N(alpha, eta_M) by the crossings at alpha (clamped to the range), independent of any transition.

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "semianalytic/crossings.h"
 #include "semianalytic/transitions_parts.h"
 
 void sa_transitions_doubt(sa_transitions *list, const char *format, ...)
@@ -98,46 +97,5 @@ cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const s
     qsort(list->items, list->count, sizeof *list->items, by_alpha);
     join_equal(list);
     number_roots(list);
-    return CV_OK;
-}
-
-/* N at a velocity between low and high; another one when the first is too near a transition. */
-static cv_status count_between(int *roots, double *where, const sa_map *map, sa_field *field, double low,
-                               double high, double level)
-{
-    static const double fractions[] = {0.5, 0.4375, 0.59375, 0.3125, 0.71875};
-    cv_status status = CV_UNDECIDED;
-    for (int i = 0; i < 5 && status == CV_UNDECIDED; ++i) {
-        sa_crossings crossings;
-        *where = low + fractions[i] * (high - low);
-        status = sa_crossings_find(&crossings, map, field, *where, level / 2, NULL);
-        if (status == CV_OK)
-            status = sa_crossings_count(roots, &crossings, level);
-        sa_crossings_clear(&crossings);
-    }
-    return status;
-}
-
-cv_status sa_transitions_verify(sa_transitions *list, const sa_map *map, sa_field *field, double level)
-{
-    for (size_t i = 0; i <= list->count; ++i) {
-        const sa_transition *left = i > 0 ? &list->items[i - 1] : NULL;
-        const sa_transition *right = i < list->count ? &list->items[i] : NULL;
-        double low = left != NULL ? mpfr_get_d(left->alpha, MPFR_RNDU) : map->curves.alpha_min;
-        double high = right != NULL ? mpfr_get_d(right->alpha, MPFR_RNDD) : map->curves.alpha_max;
-        int expected = left != NULL ? left->above : list->roots_at_start, roots = 0;
-        double where = low;
-        if (!(high - low > 8e-16 * high))
-            continue;
-        cv_status status = count_between(&roots, &where, map, field, low, high, level);
-        if (status == CV_UNDECIDED)
-            sa_transitions_doubt(list, "unstable roots could not be counted near alpha = %.15g", where);
-        else if (status != CV_OK)
-            return status;
-        else if (roots != expected)
-            sa_transitions_doubt(list,
-                                 "%d unstable roots at alpha = %.15g by crossings, %d by the transitions",
-                                 roots, where, expected);
-    }
     return CV_OK;
 }

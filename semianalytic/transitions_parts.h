@@ -40,9 +40,21 @@ cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const s
                                   const sa_candidates *found, size_t level, const cv_number *mass_ratio,
                                   int digits);
 
-/* Compares N between neighbouring transitions with the crossings there; list->decided becomes CV_UNDECIDED
- * where they differ or cannot be counted. */
-cv_status sa_transitions_verify(sa_transitions *list, const sa_map *map, sa_field *field, double level);
+/* Lists that were found together: lists[index[i]] on level[i]. */
+typedef struct {
+    const sa_map *map;
+    sa_field *field;
+    sa_transitions *lists;
+    size_t count;
+    const size_t *index;
+    const double *level;
+    double re_low; /* below every level */
+} sa_verification;
+
+/* Counts N by crossings between all neighbouring transitions of each list and at the upper end of the range,
+ * and compares every list with every count, so that a line missed for one mass shows in the counts made for
+ * another. A list that differs, or cannot be counted, becomes undecided. */
+cv_status sa_transitions_verify(const sa_verification *v);
 
 /* The list is undecided for this reason, unless it is already. */
 void sa_transitions_doubt(sa_transitions *list, const char *format, ...)

@@ -132,7 +132,7 @@ static void check_semianalytic(const combination *k)
     cv_message why = {""};
     cv_status status = sa_boundary_new(&boundary, &k->params, &k->alpha_min, &k->alpha_max, &why);
     ck_assert_msg(status == CV_OK, "semianalytic: %s", why.text);
-    status = sa_boundary_transitions(lists, boundary, k->count, k->mass, TRANSITION_DIGITS + 1, &why);
+    status = sa_boundary_transitions(lists, boundary, k->count, k->mass, TRANSITION_DIGITS + 1, 0, &why);
     ck_assert_msg(status == CV_OK, "semianalytic: %s", why.text);
     for (size_t m = 0; m < k->count; m++) {
         claims c = {lists[m].decided, lists[m].reason.text, lists[m].count, {0}, {0}, {0}, {0}};

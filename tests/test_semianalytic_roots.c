@@ -212,7 +212,7 @@ START_TEST(transitions_are_roots_on_the_axis)
     set_text(&high, "1");
     set_text(&mass, "100");
     ck_assert(sa_boundary_new(&boundary, &p, &low, &high, NULL) == CV_OK &&
-              sa_boundary_transitions(&all, boundary, 1, &mass, 30, NULL) == CV_OK && all.count > 0);
+              sa_boundary_transitions(&all, boundary, 1, &mass, 30, 0, NULL) == CV_OK && all.count > 0);
     for (size_t i = 0; i < all.count; i++) {
         const double complex q = mpfr_get_d(all.items[i].q, MPFR_RNDN);
         sa_sheet s;
