@@ -61,24 +61,14 @@ static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t 
                       const cv_number *mass_ratios, int digits, int level, cv_message *why)
 {
     handle *h = opaque;
-    (void)level;
     dg_effort cost = {0, 0, 0};
     dg_transition_list *found = calloc(mass_count, sizeof *found);
     if (found == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
     cv_status status = dg_find_transitions(found, &cost, &h->params, &h->alpha_min, &h->alpha_max, mass_count,
-                                           mass_ratios, digits, 0, why);
-    if (status == CV_UNDECIDED) {
-        for (size_t i = 0; i < mass_count; i++) {
-            lists[i].status = CV_UNDECIDED;
-            lists[i].why = *why;
-        }
-        why->text[0] = '\0';
-        status = CV_OK;
-    }
+                                           mass_ratios, digits, level, why);
     for (size_t i = 0; status == CV_OK && i < mass_count; i++)
-        if (lists[i].status == CV_OK)
-            status = copy_list(&lists[i], &found[i], why);
+        status = copy_list(&lists[i], &found[i], why);
     for (size_t i = 0; i < mass_count; i++)
         dg_transition_list_clear(&found[i]);
     free(found);
