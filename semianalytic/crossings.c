@@ -141,13 +141,57 @@ static cv_status gap_crossing(const scan *below, const scan *above)
                                             .direction = a.im > 0 ? 1 : -1});
 }
 
-static cv_status scan_gaps(const sa_map_node *node, sa_field *field, double re_low, sa_crossings *out)
+/* The branch point of a curve of the node. */
+static cv_status branch_point_of(sa_branch_point *out, const sa_map *map, double alpha, double q)
+{
+    sa_branch_point points[SA_MAP_CURVES_MAX];
+    int n = sa_branch_points(points, SA_MAP_CURVES_MAX, &map->curves, alpha);
+    if (n < 1 || n > SA_MAP_CURVES_MAX)
+        return CV_FAILED;
+    *out = points[0];
+    for (int i = 1; i < n; ++i)
+        if (fabs(points[i].q - q) < fabs(out->q - q))
+            *out = points[i];
+    return CV_OK;
+}
+
+/* Without damping, within the gap of a curve: Im zeta goes to infinity on the side of the waves with the sign
+ * of -(q - alpha p), Re zeta on the other side. Where Im zeta at the rim of the gap has the other sign there,
+ * it vanishes on the way, at a distance that double does not resolve, with Re zeta as at the rim (the
+ * singular part is imaginary on this side); where the signs on the two sides of the curve differ, zeta
+ * crosses at infinity. */
+static cv_status limit_crossings(const scan *below, const scan *above, const sa_map *map, double q)
+{
+    const double smooth = 1e-5;
+    sa_sample s[2]; /* the side of the waves, the other */
+    sa_branch_point point;
+    cv_status status = branch_point_of(&point, map, below->node->alpha, q);
+    int up = point.curvature > 0, sign = -point.sign, reaches = up ? -sign : sign;
+    if (status == CV_OK)
+        status = sample(&s[0], up ? above : below, 0);
+    if (status == CV_OK)
+        status = sample(&s[1], up ? below : above, 0);
+    if (status == CV_OK && (s[0].im > 0) != (sign > 0))
+        status = append(below->out, (sa_crossing){.q = q,
+                                                  .re = s[0].re,
+                                                  .re_error = s[0].re_error + smooth * fabs(s[0].re),
+                                                  .direction = (s[0].im > 0) == up ? -1 : 1});
+    if (status == CV_OK && (s[1].im > 0) != (sign > 0) && reaches > 0)
+        status = append(below->out,
+                        (sa_crossing){.q = q, .re = INFINITY, .direction = (s[1].im > 0) == up ? 1 : -1});
+    return status;
+}
+
+static cv_status scan_gaps(const sa_map_node *node, const sa_map *map, sa_field *field, double re_low,
+                           sa_crossings *out)
 {
     cv_status status = CV_OK;
     for (int curve = 1; curve < node->count - 1 && status == CV_OK; ++curve) {
         const scan below = {node, field, re_low, out, curve - 1, 1},
                    above = {node, field, re_low, out, curve, 0};
-        if (node->gap[curve] > 0)
+        if (node->gap[curve] > 0 && map->undamped)
+            status = limit_crossings(&below, &above, map, node->q[curve]);
+        else if (node->gap[curve] > 0)
             status = gap_crossing(&below, &above);
     }
     return status;
@@ -165,7 +209,7 @@ cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *fiel
             status = scan_side(&sc);
         }
     if (status == CV_OK)
-        status = scan_gaps(&node, field, re_low, out);
+        status = scan_gaps(&node, map, field, re_low, out);
     if (status == CV_OK)
         return CV_OK;
     sa_crossings_clear(out);

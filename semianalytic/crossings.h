@@ -5,7 +5,8 @@
  * minus those where it goes from - to +)
  *
  * is the number of roots of 1 - eta_M zeta with Re qbar > 0 (argument principle; zeta ~ - sqrt(q) at
- * infinity). */
+ * infinity). Without damping zeta(iq) goes through infinity at a branch point: a crossing there has re =
+ * INFINITY, and one that is nearer to it than doubles resolve has the re of the rim of that gap. */
 #ifndef CRITVEL_SEMIANALYTIC_CROSSINGS_H
 #define CRITVEL_SEMIANALYTIC_CROSSINGS_H
 

@@ -27,9 +27,9 @@ static double limited(double slope, double limit)
 
 /* Where the damping is below what doubles resolve, the curve keeps a distance: zeta is then so large that
  * nothing of interest is nearer. Falls to zero, with its slope, as the damping grows. */
-static void place_gap(sa_map_node *node, int i, double damping, double damping_slope)
+static void place_gap(sa_map_node *node, int i, const sa_map *map, double damping, double damping_slope)
 {
-    double resolved = 2e-13 * (1 + node->q[i]), x = damping / resolved;
+    double resolved = (map->undamped ? 2e-12 : 2e-13) * (1 + node->q[i]), x = damping / resolved;
     node->gap[i] = x < 1 ? resolved / 2 * (1 - x * x) * (1 - x * x) : 0;
     node->gap_slope[i] = x < 1 ? -2 * x * (1 - x * x) * damping_slope : 0;
 }
@@ -52,7 +52,7 @@ static cv_status place_arc(sa_map_node *node, int i, const sa_map *map, int numb
     /* at a cusp the damping has a slope like 1 / sqrt(distance) that changes nothing */
     damping_slope = limited(damping_slope, 1e5 * node->length[i]);
     node->length_slope[i] = 0.1 * damping_slope;
-    place_gap(node, i, damping, damping_slope);
+    place_gap(node, i, map, damping, damping_slope);
     return CV_OK;
 }
 

@@ -15,6 +15,10 @@
  *     q     = curve + direction * b (e^{t Y} - 1), t = 0 at the curve, t = 1 in mid-strip
  *
  * with a, b a tenth of the damping there; X and Y follow from the widths. All quantities are dimensionless.
+ *
+ * Without damping b is what doubles resolve, curves keep a gap, and the surroundings of each special
+ * velocity, so near that the curves meeting there cannot be told apart, are a closed column: a is its half
+ * width.
  */
 #ifndef CRITVEL_SEMIANALYTIC_MAP_H
 #define CRITVEL_SEMIANALYTIC_MAP_H
@@ -39,11 +43,19 @@ typedef struct {
     int count;                      /* curves, q ascending, without q = 0 and q_top */
     int curve[SA_MAP_CURVES_MAX];   /* arc of the branch curves, or -1 - number of a ghost */
     double q_top;
+    int closed;  /* undamped tracks: around a special velocity, not searched */
+    int special; /* of a closed column: which special velocity of the branch curves is inside, or below */
 } sa_column;
+
+enum {
+    SA_COLUMN_PLAIN = -1,
+    SA_COLUMN_SEVERAL = -2
+}; /* none of them: only a ghost meets a curve; more than one */
 
 typedef struct {
     sa_branch_curves curves;
     double eta_p, eta_b, eta_f;
+    int undamped; /* all three are zero */
     size_t ghost_count;
     sa_ghost *ghost;
     size_t count;
@@ -51,7 +63,7 @@ typedef struct {
 } sa_map;
 
 /* Prepares the map for 0 < alpha_min < alpha_max and the dampings of params, which must have passed
- * cv_params_check and not be undamped. CV_FAILED: out of memory or a track with more than
+ * cv_params_check. CV_FAILED: out of memory or a track with more than
  * SA_MAP_CURVES_MAX curves at one velocity; nothing is then allocated. */
 cv_status sa_map_build(sa_map *out, const cv_params *params, double alpha_min, double alpha_max,
                        cv_message *why);

@@ -13,7 +13,7 @@ cv_status sa_map_cuts_add(sa_map_cuts *cuts, double alpha, int graded)
         cuts->cut = more;
         cuts->room = room;
     }
-    cuts->cut[cuts->count++] = (sa_map_cut){alpha, graded};
+    cuts->cut[cuts->count++] = (sa_map_cut){.alpha = alpha, .graded = graded};
     return CV_OK;
 }
 
@@ -75,7 +75,11 @@ static cv_status collect_cuts(sa_map_cuts *cuts, sa_map *map)
         sa_map_dips(map, cuts) != CV_OK)
         return CV_FAILED;
     sa_map_cuts_sort(cuts);
-    return CV_OK;
+    if (!map->undamped)
+        return CV_OK;
+    cv_status status = sa_map_close(map, cuts);
+    sa_map_cuts_sort(cuts);
+    return status;
 }
 
 static cv_status make_columns(sa_map *map, const sa_map_cuts *cuts)
@@ -87,8 +91,14 @@ static cv_status make_columns(sa_map *map, const sa_map_cuts *cuts)
         sa_column *c = &map->column[map->count++];
         c->alpha_low = cuts->cut[i].alpha;
         c->alpha_high = cuts->cut[i + 1].alpha;
+        c->closed = cuts->cut[i].closes;
+        c->special = cuts->cut[i].special;
         if (sa_map_column_fill(c, map, cuts->cut[i].graded, cuts->cut[i + 1].graded) != CV_OK)
             return CV_FAILED;
+        if (cuts->cut[i].length > 0)
+            c->length_low = cuts->cut[i].length;
+        if (cuts->cut[i + 1].length > 0)
+            c->length_high = cuts->cut[i + 1].length;
     }
     return CV_OK;
 }
@@ -104,6 +114,7 @@ cv_status sa_map_build(sa_map *out, const cv_params *params, double alpha_min, d
     out->eta_p = cv_number_get_double(&params->eta_p);
     out->eta_b = cv_number_get_double(&params->eta_b);
     out->eta_f = cv_number_get_double(&params->eta_f);
+    out->undamped = cv_params_undamped(params);
     status = collect_cuts(&cuts, out);
     if (status == CV_OK)
         status = make_columns(out, &cuts);

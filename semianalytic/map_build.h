@@ -8,6 +8,9 @@
 typedef struct {
     double alpha;
     int graded;
+    double length; /* grading length there; 0: by the damping */
+    int closes;    /* the column above is closed; special as in sa_column */
+    int special;
 } sa_map_cut;
 
 typedef struct {
@@ -20,6 +23,12 @@ void sa_map_cuts_sort(sa_map_cuts *cuts); /* ascending, equal ones joined */
 
 /* Fills map->ghost from map->curves and adds where they end and what they meet. */
 cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts);
+
+/* Undamped tracks: replaces graded cuts, which are sorted, by the ends of closed columns around them. */
+cv_status sa_map_close(const sa_map *map, sa_map_cuts *cuts);
+
+/* Smallest distance between neighbouring curves at alpha, relative to 1 + q; 0 when one is next to q = 0. */
+cv_status sa_map_narrowest(double *width, const sa_map *map, double alpha);
 
 /* Signed q of a ghost at alpha. */
 double sa_map_ghost_q(const sa_ghost *ghost, double alpha);

@@ -60,6 +60,19 @@ static cv_status collect_curves(found *list, int *count, const sa_map *map, doub
     return CV_OK;
 }
 
+cv_status sa_map_narrowest(double *width, const sa_map *map, double alpha)
+{
+    const double lowest_q = 1e-7;
+    found list[SA_MAP_CURVES_MAX];
+    int count;
+    if (collect_curves(list, &count, map, alpha) != CV_OK)
+        return CV_FAILED;
+    *width = count > 0 && list[0].q < lowest_q ? 0 : INFINITY;
+    for (int i = 1; i < count; ++i)
+        *width = fmin(*width, (list[i].q - list[i - 1].q) / (1 + list[i].q));
+    return CV_OK;
+}
+
 cv_status sa_map_column_fill(sa_column *column, const sa_map *map, int graded_low, int graded_high)
 {
     found list[SA_MAP_CURVES_MAX];

@@ -125,7 +125,7 @@ static cv_status cut_dip(sa_map_cuts *cuts, const sa_branch_arc *arc, station le
 cv_status sa_map_dips(const sa_map *map, sa_map_cuts *cuts)
 {
     const sa_branch_grid *grid = &map->curves.grid;
-    if (map->eta_p == 0 && map->eta_b == 0 && map->eta_f == 0)
+    if (map->undamped)
         return CV_OK;
     for (size_t i = 0; i < map->curves.arc_count; ++i) {
         const sa_branch_arc *arc = &map->curves.arc[i];

@@ -259,7 +259,7 @@ cv_status sa_map_search(const sa_map *map, sa_field *field, const sa_search *sea
     search_state st = {.map = map, .field = field, .search = search};
     cv_status status = CV_OK;
     for (size_t i = 0; i < 2 * map->count; ++i) { /* one side of a column after the other: nodes are kept */
-        int strips = map->column[i / 2].count + 1;
+        int strips = map->column[i / 2].closed ? 0 : map->column[i / 2].count + 1;
         for (int k = 0; k < 2 * strips - 1 && status == CV_OK; ++k) /* the last strip has one side */
             status = search_block(&st, i / 2, (int)(i % 2), k / 2, k % 2);
     }

@@ -20,8 +20,6 @@ static cv_status prepare(sa_boundary *b, const cv_number *alpha_min, const cv_nu
     cv_status status = sa_track_new(&b->track, &b->params, why);
     if (status != CV_OK)
         return status;
-    if (cv_params_undamped(&b->params))
-        return cv_fail(why, CV_BAD_INPUT, "the boundary of stability needs a damped track");
     if (cv_number_sign(alpha_min) <= 0 || cv_number_compare(alpha_min, alpha_max) >= 0)
         return cv_fail(why, CV_BAD_INPUT, "the range of velocities must have 0 < alpha_min < alpha_max");
     b->sweep = sa_sweep_new();
@@ -146,7 +144,7 @@ static cv_status finish_lists(sa_transitions *lists, search_pass *p, const cv_nu
         if (p->levels.doubtful[i])
             sa_transitions_doubt(list, "a line touches 1 / eta_M or meets another line near alpha = %.15g",
                                  p->levels.doubtful_at[i]);
-        status = sa_transitions_assemble(list, b->sweep, b->track, &p->levels.found, i,
+        status = sa_transitions_assemble(list, b->sweep, b->track, &b->map, p->field, &p->levels.found, i,
                                          &mass_ratios[p->index[i]], digits);
     }
     const sa_verification v = {&b->map, p->field, lists, p->count, p->index, p->level, re_low};

@@ -7,6 +7,16 @@
  * at alpha_min, at alpha_max and between all neighbouring transitions (crossings.h), which must be what the
  * transitions say. Where they differ the map is searched again in finer steps; if they still do, the list is
  * undecided.
+ *
+ * Without damping everything is the limit of vanishing damping, q - i0 (kernel.h). Every track radiates at
+ * every (alpha, q), alpha > 0: the sleepers between rail and ballast at rest are a flat branch, which each
+ * line q = omega + alpha p meets at least twice. So Im zeta vanishes nowhere but on lines, and these lines
+ * are the limit of the damped ones, for all dampings eta_p : eta_b : eta_f alike. They may end on a branch
+ * curve, where Re zeta becomes infinite on them (eta_M = 0), or in a special velocity of the branch curves,
+ * from which the limit goes on along alpha = const: N changes there for a whole range of eta_M, because
+ * crossings at infinity come and go. Such a velocity is listed as a transition with the q at which the curves
+ * meet (0 for a resonance velocity). Lines that run along a branch curve at less than 1e-12 of it are counted
+ * (crossings.h) but not traced: where one of them gives a transition the list is undecided.
  */
 #ifndef CRITVEL_SEMIANALYTIC_TRANSITIONS_H
 #define CRITVEL_SEMIANALYTIC_TRANSITIONS_H
@@ -33,8 +43,7 @@ typedef struct {
 /* One track and one range of velocities. For one thread at a time. */
 typedef struct sa_boundary sa_boundary;
 
-/* 0 < alpha_min < alpha_max. CV_BAD_INPUT: params are refused by cv_params_check, the range is not one, or
- * the track is undamped (a limit, not a boundary: zeta is then not smooth). */
+/* 0 < alpha_min < alpha_max. CV_BAD_INPUT: params are refused by cv_params_check, or the range is not one. */
 cv_status sa_boundary_new(sa_boundary **out, const cv_params *params, const cv_number *alpha_min,
                           const cv_number *alpha_max, cv_message *why);
 void sa_boundary_free(sa_boundary *boundary); /* NULL allowed */

@@ -78,10 +78,10 @@ static void number_roots(sa_transitions *list)
 }
 
 cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const sa_track *track,
-                                  const sa_candidates *found, size_t level, const cv_number *mass_ratio,
-                                  int digits)
+                                  const sa_map *map, sa_field *field, const sa_candidates *found,
+                                  size_t level, const cv_number *mass_ratio, int digits)
 {
-    list->items = calloc(found->count + 1, sizeof *list->items);
+    list->items = calloc(found->count + map->count + 1, sizeof *list->items);
     if (list->items == NULL)
         return CV_FAILED;
     for (size_t i = 0; i < found->count; ++i) {
@@ -93,6 +93,12 @@ cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const s
         if (status != CV_OK)
             return status;
         t->above = sa_transition_step(c);
+    }
+    if (map->undamped) {
+        cv_status status =
+            sa_transitions_jumps(list, map, field, 1 / cv_number_get_double(mass_ratio), digits);
+        if (status != CV_OK)
+            return status;
     }
     qsort(list->items, list->count, sizeof *list->items, by_alpha);
     join_equal(list);

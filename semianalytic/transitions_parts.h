@@ -37,8 +37,13 @@ cv_status sa_transition_refine(sa_transition *item, sa_sweep *sweep, const sa_tr
 /* A list from the candidates on one level, in any order: refined, those found twice joined, ascending, with
  * numbers of roots relative to roots_at_start, which the caller has set. */
 cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const sa_track *track,
-                                  const sa_candidates *found, size_t level, const cv_number *mass_ratio,
-                                  int digits);
+                                  const sa_map *map, sa_field *field, const sa_candidates *found,
+                                  size_t level, const cv_number *mass_ratio, int digits);
+
+/* Undamped tracks: appends the special velocities at which N changes, as it is counted on either side of the
+ * closed columns of the map; list->items has room for one of each. */
+cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field *field, double level,
+                               int digits);
 
 /* Lists that were found together: lists[index[i]] on level[i]. */
 typedef struct {

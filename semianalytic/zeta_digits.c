@@ -114,22 +114,32 @@ static void round_part(double *part, double *error, const mpfr_t mid, long doubl
         *error = 0;
 }
 
+/* The part of a residue, or of its slope, that counts in i (sum), see kernel.h: all of it with damping, else
+ * what the sum over both half-planes leaves. */
+static double complex share(const sa_box_pole *pole, int undamped, double complex residue)
+{
+    if (!undamped)
+        return pole->side > 0 ? residue : 0;
+    if (pole->is_real)
+        return pole->side * creal(residue) / 2;
+    return pole->side > 0 ? CMPLX(0, cimag(residue)) : 0;
+}
+
 /* Analytic slopes from the poles in double. */
 static void slopes(sa_value *out, const sa_pole_set *set, const sa_track *t, double alpha, double q)
 {
     double complex total = 0, along_q = 0, along_alpha = 0;
     for (int i = 0; i < set->count; i++) {
-        if (set->poles[i].side < 0)
-            continue;
         sa_point m;
         sa_slopes at;
-        const mpc_ptr p = (const mpc_ptr)set->poles[i].p.m;
+        const sa_box_pole *pole = &set->poles[i];
+        const mpc_ptr p = (const mpc_ptr)pole->p.m;
         sa_matrix_point(&m, t, alpha, q,
                         CMPLX(mpfr_get_d(mpc_realref(p), MPFR_RNDN), mpfr_get_d(mpc_imagref(p), MPFR_RNDN)));
         sa_matrix_slopes(&at, &m, t, alpha);
-        total += at.residue;
-        along_q += at.residue_q;
-        along_alpha += at.residue_alpha;
+        total += share(pole, t->undamped, at.residue);
+        along_q += share(pole, t->undamped, at.residue_q);
+        along_alpha += share(pole, t->undamped, at.residue_alpha);
     }
     out->d_alpha = CMPLX(0, q * q) * along_alpha;
     out->d_q = CMPLX(0, 1) * (2 * q * total + q * q * along_q);

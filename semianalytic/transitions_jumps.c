@@ -1,0 +1,58 @@
+/* Special velocities of an undamped track as transitions: where branch curves meet, end or reach q = 0, the
+ * crossings of zeta(iq) at infinity change their number or order, and N with them for a whole range of mass
+ * ratios. In the (eta_M, alpha) plane the lines have vertical parts there. */
+#include <math.h>
+
+#include "semianalytic/crossings.h"
+#include "semianalytic/transitions_parts.h"
+
+static cv_status count_at(int *roots, const sa_map *map, sa_field *field, double alpha, double level)
+{
+    sa_crossings crossings;
+    cv_status status = sa_crossings_find(&crossings, map, field, alpha, level / 2, NULL);
+    if (status == CV_OK)
+        status = sa_crossings_count(roots, &crossings, level);
+    sa_crossings_clear(&crossings);
+    return status;
+}
+
+static void append(sa_transitions *list, const sa_map *map, const sa_column *c, int step, int digits)
+{
+    sa_transition *t = &list->items[list->count++];
+    double width = c->alpha_high - c->alpha_low;
+    mpfr_inits2(53, t->alpha, t->q, (mpfr_ptr)0);
+    mpfr_set_d(t->alpha, c->alpha_low + width / 2, MPFR_RNDN);
+    mpfr_set_zero(t->q, 1);
+    t->alpha_error = t->q_error = width;
+    if (c->special >= 0) {
+        const sa_special *special = &map->curves.special[c->special];
+        mpfr_set_d(t->alpha, special->alpha, MPFR_RNDN);
+        mpfr_set_d(t->q, special->q, MPFR_RNDN);
+        t->alpha_error = 4e-15 * special->alpha;
+        t->q_error = 4e-15 * (1 + special->q);
+    }
+    t->above = step;
+    t->decided = t->alpha_error < pow(10, -digits) * mpfr_get_d(t->alpha, MPFR_RNDN) ? CV_OK : CV_UNDECIDED;
+}
+
+cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field *field, double level,
+                               int digits)
+{
+    for (size_t i = 1; i + 1 < map->count; ++i) {
+        const sa_column *c = &map->column[i];
+        int below = 0, above = 0;
+        if (!c->closed)
+            continue;
+        cv_status status = count_at(&below, map, field, c->alpha_low - c[-1].length_high / 10, level);
+        if (status == CV_OK)
+            status = count_at(&above, map, field, c->alpha_high + c[1].length_low / 10, level);
+        if (status == CV_UNDECIDED)
+            sa_transitions_doubt(list, "unstable roots could not be counted beside alpha = %.15g",
+                                 c->alpha_low);
+        else if (status != CV_OK)
+            return status;
+        else if (above != below)
+            append(list, map, c, above - below, digits);
+    }
+    return CV_OK;
+}
