@@ -39,11 +39,15 @@ static int one_signed(const double f[3], const double slope[3])
     return fabs(log_f[1] - middle) < tolerance && fabs(g[1] - slope_middle) < 2 * tolerance;
 }
 
-static int steady(const double f[3])
+/* The function is monotone from a to b: its slope varies little and fits its values. */
+static int steady(const double f[3], const double slope[3])
 {
-    double low = fmin(fabs(f[0]), fmin(fabs(f[1]), fabs(f[2])));
-    double high = fmax(fabs(f[0]), fmax(fabs(f[1]), fabs(f[2])));
-    return f[0] * f[1] > 0 && f[1] * f[2] > 0 && high < 8 * low && fabs(log(f[1] * f[1] / (f[0] * f[2]))) < 1;
+    double low = fmin(fabs(slope[0]), fmin(fabs(slope[1]), fabs(slope[2])));
+    double high = fmax(fabs(slope[0]), fmax(fabs(slope[1]), fabs(slope[2])));
+    return slope[0] * slope[1] > 0 && slope[1] * slope[2] > 0 && high < 8 * low &&
+           fabs(log(slope[1] * slope[1] / (slope[0] * slope[2]))) < 1 &&
+           sa_slopes_fit(2 * (f[1] - f[0]), slope[0], slope[1]) &&
+           sa_slopes_fit(2 * (f[2] - f[1]), slope[1], slope[2]);
 }
 
 static cv_status append(sa_crossings *list, sa_crossing item)
@@ -99,7 +103,7 @@ static cv_status scan_interval(const scan *sc, const sa_sample *a, const sa_samp
     const double re_t[3] = {a->re_t * h, m.re_t * h, b->re_t * h};
     if (one_signed(im, im_t) || (re[0] < 0 && one_signed(re, re_t)))
         return CV_OK;
-    if (steady(im_t))
+    if (steady(im, im_t))
         return (a->im > 0) == (b->im > 0) ? CV_OK : crossing(sc, a, b);
     if (h < smallest)
         return CV_UNDECIDED;

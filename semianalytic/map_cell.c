@@ -35,19 +35,38 @@ int sa_cell_one_signed(double roughness[2], const sa_cell_values *v, double tole
            roughness[1] < 2 * tolerance && largest < steepest;
 }
 
-int sa_cell_steady(const double f[SA_CELL_POINTS])
+static int smooth(const double slope[SA_CELL_POINTS])
 {
     const double largest_ratio = 8, largest_bend = 0.5;
     double smallest = INFINITY, largest = 0, mean = 0;
     for (int i = 0; i < SA_CELL_POINTS; ++i) {
-        if (!(f[i] * f[0] > 0))
+        if (!(slope[i] * slope[0] > 0))
             return 0;
-        smallest = fmin(smallest, fabs(f[i]));
-        largest = fmax(largest, fabs(f[i]));
+        smallest = fmin(smallest, fabs(slope[i]));
+        largest = fmax(largest, fabs(slope[i]));
         if (i < SA_CELL_CORNERS)
-            mean += log(fabs(f[i])) / SA_CELL_CORNERS;
+            mean += log(fabs(slope[i])) / SA_CELL_CORNERS;
     }
-    return largest < largest_ratio * smallest && fabs(log(fabs(f[4])) - mean) < largest_bend;
+    return largest < largest_ratio * smallest && fabs(log(fabs(slope[4])) - mean) < largest_bend;
+}
+
+int sa_slopes_fit(double rise, double slope0, double slope1)
+{
+    const double slack = 1.5;
+    double low = fmin(fabs(slope0), fabs(slope1)), high = fmax(fabs(slope0), fabs(slope1));
+    return rise * slope0 > 0 && fabs(rise) * slack > low && fabs(rise) < slack * high;
+}
+
+int sa_cell_steady(const sa_cell_values *v, int axis)
+{
+    const double largest_surprise = 0.25;
+    const double *f = v->f, *slope = axis == 0 ? v->f_u : v->f_t;
+    const int step = axis == 0 ? 1 : 2, next = 3 - step; /* corners 0 and 0 + step, next and next + step */
+    if (!smooth(slope) || !sa_slopes_fit(f[step] - f[0], slope[0], slope[step]) ||
+        !sa_slopes_fit(f[3] - f[next], slope[next], slope[3]))
+        return 0;
+    double centre = (f[0] + f[1] + f[2] + f[3]) / 4 + across_u(v->f_u) / 8 + across_t(v->f_t) / 8;
+    return fabs(f[4] - centre) < largest_surprise * fabs(slope[4]);
 }
 
 int sa_cubic_one_signed(double f0, double f1, double slope0, double slope1)

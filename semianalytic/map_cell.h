@@ -20,9 +20,13 @@ typedef struct {
  * t (infinite where signs differ); the cell is best split across the larger. */
 int sa_cell_one_signed(double roughness[2], const sa_cell_values *v, double tolerance, double steepest);
 
-/* 1 when the five values have one sign and vary little and smoothly: used on the derivative of a function,
- * which is then monotone in that direction. */
-int sa_cell_steady(const double f[SA_CELL_POINTS]);
+/* 1 when the function is monotone along u (axis 0) or t (1): its derivative has one sign, varies little and
+ * smoothly, and agrees with the differences of the values, so that it does not turn between the points. */
+int sa_cell_steady(const sa_cell_values *v, int axis);
+
+/* 1 when the rise over an interval lies between what the slopes at its ends (per length of the interval)
+ * give, or nearly so */
+int sa_slopes_fit(double rise, double slope0, double slope1);
 
 /* 1 when the cubic with these end values and slopes (per length of the interval) keeps a clear distance from
  * zero. */

@@ -158,7 +158,7 @@ static int spans_t(const cell_data *d)
 static int simple(cv_status *status, const search_state *st, const cell_data *d)
 {
     static const int left_right[2][2] = {{0, 2}, {1, 3}}, bottom_top[2][2] = {{0, 1}, {2, 3}};
-    int steady_u = sa_cell_steady(d->im.f_u), steady_t = sa_cell_steady(d->im.f_t);
+    int steady_u = sa_cell_steady(&d->im, 0), steady_t = sa_cell_steady(&d->im, 1);
     *status = CV_OK;
     if (steady_u && steady_t)
         *status = monotone_cell(st, d);
