@@ -7,7 +7,7 @@
 #include "dgreen/curve_refine.h"
 
 /* Nodes per decade of the distance from a branch point, down to this part of its width */
-enum { PER_DECADE = 4 };
+enum { PER_DECADE = 2 };
 static const double CORE = 0.6;
 /* Relative spacing of doubles with some room */
 static const double SPACING = 1e-15;
@@ -38,7 +38,7 @@ cv_status dg_curve_add(dg_curve *c, const dg_probe *p, double q, cv_message *why
         q *= 1 + 8 * SPACING;
     }
     if (status == CV_OK)
-        c->node_count++;
+        c->nodes[c->node_count++].position = dg_station_position(&c->at, q);
     else
         cv_fail(why, status, "sign of Im zeta not certified at alpha = %.17g, q = %.17g", c->at.alpha, q);
     return status;

@@ -37,12 +37,13 @@ typedef struct {
 } dg_curve;
 
 /* Method: nodes at logarithmic distances from q = 0 and, on both sides, from every branch point, down to a
- * small part of its width, because zeta is smooth in the logarithm of that distance; then more nodes where
- * |Im zeta| has a minimum that may hide two zeros, and where the curve turns. Ends: q so small that |zeta| <
- * x_floor/2 with |zeta| ~ q^2 before it, and so large that the bare rail (Re zeta < 0, Im zeta < 0) rules.
- * Not found: two zeros of Im zeta between consecutive nodes between which |Im zeta| shows no minimum.
- * x_floor > 0. *c must be zero or a former curve, whose memory is used again.
- * CV_UNDECIDED: a sign could not be certified, or one of the ends could not be reached. */
+ * small part of its width, because zeta is smooth in the logarithm of that distance; then more nodes where Im
+ * zeta is not what the cubic through the neighbouring nodes leads to expect, where |Im zeta| has a minimum
+ * that may hide two zeros, and where the curve turns. Ends: q so small that |zeta| < x_floor/2 with |zeta| ~
+ * q^2 before it, and so large that the bare rail (Re zeta < 0, Im zeta < 0) rules. Not found: two zeros of Im
+ * zeta between consecutive nodes if neither |Im zeta| shows a minimum there nor the cubic a surprise. x_floor
+ * > 0. *c must be zero or a former curve, whose memory is used again. CV_UNDECIDED: a sign could not be
+ * certified, or one of the ends could not be reached. */
 cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why);
 void dg_curve_clear(dg_curve *c);
 

@@ -31,7 +31,7 @@ cv_status dg_probe_at(dg_node *node, const dg_probe *p, double alpha, double q)
     if (status == CV_UNDECIDED || (status == CV_OK && !is_certain(&v)))
         status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, qbar, INFINITY, 0.5);
     if (status == CV_OK)
-        *node = (dg_node){q, v.re, v.im, v.re_error};
+        *node = (dg_node){q, v.re, v.im, v.re_error, 0};
     return status;
 }
 
@@ -43,7 +43,7 @@ cv_status dg_probe_sharpen(dg_node *node, const dg_probe *p, double alpha)
         return CV_OK;
     const cv_status status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, CMPLX(0, node->q), tol_re, 0.5);
     if (status == CV_OK)
-        *node = (dg_node){node->q, v.re, v.im, v.re_error};
+        *node = (dg_node){node->q, v.re, v.im, v.re_error, node->position};
     return status;
 }
 
@@ -56,7 +56,7 @@ cv_status dg_probe_value(dg_node *node, int *certain, const dg_probe *p, double 
         status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, qbar, 1e-10, INFINITY);
     if (status == CV_OK) {
         *certain = is_certain(&v);
-        *node = (dg_node){q, v.re, v.im, v.re_error};
+        *node = (dg_node){q, v.re, v.im, v.re_error, 0};
     }
     return status;
 }

@@ -9,6 +9,7 @@
 typedef struct {
     double q, re, im;
     double re_error; /* bound of |re - exact| */
+    double position; /* dg_station_position, for nodes of a curve */
 } dg_node;
 
 typedef struct {

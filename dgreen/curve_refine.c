@@ -9,6 +9,9 @@ static const double DIP_CLEARANCE = 0.85;
 /* A node is suspicious when the product of its neighbours' values exceeds its square by this factor: among
  * nodes at geometric distances that is 1 for any power law. */
 static const double KINK = 3;
+/* Im zeta counts as smooth at a node when the cubic through its four neighbours, as a function of the
+ * position, misses it by less than this part of its value. */
+static const double SMOOTH = 0.25;
 /* cos of the largest turning of the polyline that is accepted next to the real axis: 60 degrees */
 static const double COS_TURN = 0.5;
 /* Part of the interval below which the doubles end */
@@ -33,6 +36,29 @@ static int dip_may_hide(double *lowest, const dg_node *a, const dg_node *b, cons
     *lowest = curvature > 0 ? b->q - slope / (2 * curvature) : b->q;
     const double least = curvature > 0 ? fb - slope * slope / (4 * curvature) : fb;
     return least < DIP_CLEARANCE * fb || fa * fc > KINK * fb * fb;
+}
+
+/* Im zeta at n[0] by the cubic through n[-2], n[-1], n[1] and n[2] */
+static double interpolated(const dg_node *n)
+{
+    static const int OTHERS[4] = {-2, -1, 1, 2};
+    double sum = 0;
+    for (int i = 0; i < 4; i++) {
+        const dg_node *one = &n[OTHERS[i]];
+        double term = one->im;
+        for (int k = 0; k < 4; k++)
+            if (k != i)
+                term *= (n->position - n[OTHERS[k]].position) / (one->position - n[OTHERS[k]].position);
+        sum += term;
+    }
+    return sum;
+}
+
+/* Im zeta at n[0] is not what its neighbours lead to expect; beside a zero their values are the measure. */
+static int surprises(const dg_node *n, int look)
+{
+    const double beside = fmin(fabs(n[-1].im), fabs(n[1].im)) / 2;
+    return !(fabs(interpolated(n) - n->im) <= ldexp(SMOOTH, -look) * fmax(fabs(n->im), beside));
 }
 
 /* The polyline turns at b, so near the real axis that it may pass a point of it on the wrong side */
@@ -67,7 +93,7 @@ static cv_status pass(dg_curve *c, const dg_probe *p, cv_message *why)
         if (dip_may_hide(&lowest, a, b, d)) {
             if (fabs(lowest - b->q) > NARROW * b->q)
                 status = dg_curve_add(c, p, lowest, why);
-        } else if (!turns(a, b, d)) {
+        } else if (!turns(a, b, d) && !(i > 1 && i + 2 < n && surprises(b, p->look))) {
             continue;
         }
         if (status == CV_OK && cut != i)

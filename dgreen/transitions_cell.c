@@ -67,37 +67,90 @@ static int align(alignment *g)
     return 1;
 }
 
-/* Whether the crossings of one curve that have no partner matter for 1/eta_M = x. Two that were born together
- * spread over [least, most] from a common value between; one alone has gone down to the floor. x must keep
- * away from that range by a part of its width. */
-static int unpaired_matter(const dg_curve *c, const int *partner, double x)
+/* One end of the cell on the way to the other: crossings, and their partners there */
+typedef struct {
+    const dg_curve *here, *there;
+    const int *partner, *partner_there;
+    double way; /* from here to there in alpha, signed */
+} outlook;
+
+static outlook from_left(const alignment *g)
+{
+    return (outlook){g->left, g->right, g->right_of, g->left_of, g->right->at.alpha - g->left->at.alpha};
+}
+
+static outlook from_right(const alignment *g)
+{
+    return (outlook){g->right, g->left, g->left_of, g->right_of, g->left->at.alpha - g->right->at.alpha};
+}
+
+/* Whether the crossings of one end that have no partner matter for 1/eta_M = x. Two that were born together
+ * spread over [least, most] from a common value between; one alone has gone down to the floor. As x moves
+ * with the root of the distance from the birth, twice its slope leads back there. x must keep away from that
+ * range by a part of its width. */
+static int unpaired_matter(const dg_sweep *s, const outlook *o, double x)
 {
     size_t n = 0;
     double least = INFINITY, most = 0;
-    for (size_t i = 0; i < c->crossing_count; i++) {
-        if (partner[i] != NONE)
+    for (size_t i = 0; i < o->here->crossing_count; i++) {
+        const dg_crossing *c = &o->here->crossings[i];
+        const double back = c->x + 2 * c->dx * o->way;
+        if (o->partner[i] != NONE)
             continue;
         n++;
-        least = fmin(least, c->crossings[i].x);
-        most = fmax(most, c->crossings[i].x);
+        least = fmin(least, fmin(c->x, back));
+        most = fmax(most, fmax(c->x, back));
     }
     if (n % 2 == 1)
-        least = c->x_floor;
-    const double margin = MARGIN * (most - least);
+        least = fmin(least, o->here->x_floor);
+    const double margin = ldexp(MARGIN, s->probe.look) * (most - least);
     return n > 0 && x > least - margin && x < most + margin;
 }
 
-/* Whether a dip of one curve could reach zero within "distance" in alpha, by its slope with room for
- * curvature, at an x that matters. */
-static int dip_matters(const dg_sweep *s, const dg_curve *c, double distance)
+/* Whether a dip may reach zero on the way, by its slope with room for curvature, at an x that matters. */
+static int may_reach_zero(const dg_sweep *s, const dg_dip *d, double way)
 {
     const double safety = ldexp(DIP_SAFETY, s->probe.look), reach = ldexp(REACH, s->probe.look);
-    for (size_t i = 0; i < c->dip_count; i++) {
-        const dg_dip *d = &c->dips[i];
-        if (!(fabs(d->im) > safety * fabs(d->d_im * distance)))
-            for (size_t k = 0; k < s->mass_count; k++)
-                if (d->re < reach * s->masses[k].x && d->re > s->masses[k].x / reach)
-                    return 1;
+    if (fabs(d->im) > safety * fabs(d->d_im * way))
+        return 0;
+    for (size_t k = 0; k < s->mass_count; k++)
+        if (d->re < reach * s->masses[k].x && d->re > s->masses[k].x / reach)
+            return 1;
+    return 0;
+}
+
+/* How many crossings without partner there are at the other end between the neighbours of this dip, if the
+ * first of them leads to the other sign; they are what became of it. */
+static int born_of(const outlook *o, const dg_dip *d)
+{
+    const size_t n = o->here->crossing_count;
+    size_t above = 0;
+    while (above < n && o->here->crossings[above].q < d->q)
+        above++;
+    if ((above > 0 && o->partner[above - 1] == NONE) || (above < n && o->partner[above] == NONE))
+        return 0;
+    const int first = above > 0 ? o->partner[above - 1] + 1 : 0;
+    const int end = above < n ? o->partner[above] : (int)o->there->crossing_count;
+    return first < end && o->there->crossings[first].direction == (d->im > 0 ? 1 : -1) ? end - first : 0;
+}
+
+/* Whether a dip may reach zero unseen: at the other end there are not as many pairs of new crossings as dips.
+ */
+static int dips_matter(const dg_sweep *s, const outlook *o)
+{
+    int explained = 0;
+    const dg_dip *last = NULL;
+    for (size_t i = 0; i < o->here->dip_count; i++) {
+        const dg_dip *d = &o->here->dips[i];
+        if (!may_reach_zero(s, d, o->way))
+            continue;
+        for (size_t k = 0; k < o->here->crossing_count && last != NULL; k++)
+            if (o->here->crossings[k].q > last->q && o->here->crossings[k].q < d->q)
+                explained = 0;
+        explained += 2;
+        last = d;
+        if (explained > born_of(o, d))
+            return 1;
     }
     return 0;
 }
@@ -108,12 +161,11 @@ static cv_status attempt(dg_sweep *s, const dg_curve *left, const dg_curve *righ
     alignment g = {.left = left, .right = right};
     if (!align(&g))
         return CV_UNDECIDED;
+    const outlook one = from_left(&g), other = from_right(&g);
     for (size_t k = 0; k < s->mass_count; k++)
-        if (unpaired_matter(left, g.right_of, s->masses[k].x) ||
-            unpaired_matter(right, g.left_of, s->masses[k].x))
+        if (unpaired_matter(s, &one, s->masses[k].x) || unpaired_matter(s, &other, s->masses[k].x))
             return CV_UNDECIDED;
-    const double width = right->at.alpha - left->at.alpha;
-    if (dip_matters(s, left, width) || dip_matters(s, right, width))
+    if (dips_matter(s, &one) || dips_matter(s, &other))
         return CV_UNDECIDED;
     cv_status status = CV_OK;
     for (size_t i = 0; i < left->crossing_count && status == CV_OK; i++)
@@ -162,9 +214,10 @@ static void give_up(dg_sweep *s, const dg_curve *left, const dg_curve *right)
 {
     alignment g = {.left = left, .right = right};
     const int aligned = align(&g);
+    const outlook one = from_left(&g), other = from_right(&g);
     for (size_t k = 0; k < s->mass_count; k++)
-        if (!aligned || unpaired_matter(left, g.right_of, s->masses[k].x) ||
-            unpaired_matter(right, g.left_of, s->masses[k].x))
+        if (!aligned || unpaired_matter(s, &one, s->masses[k].x) ||
+            unpaired_matter(s, &other, s->masses[k].x))
             dg_sweep_doubt(&s->masses[k], "crossings that cannot be paired", left->at.alpha, right->at.alpha);
 }
 
