@@ -4,7 +4,8 @@
 #ifndef CRITVEL_COMPARE_COMMANDS_H
 #define CRITVEL_COMPARE_COMMANDS_H
 
-int cmp_lines_main(int argc, char **argv); /* instability lines */
-int cmp_roots_main(int argc, char **argv); /* mass-induced frequencies at one velocity */
+int cmp_convergence_main(int argc, char **argv); /* stability limits as the damping falls */
+int cmp_lines_main(int argc, char **argv);       /* instability lines */
+int cmp_roots_main(int argc, char **argv);       /* mass-induced frequencies at one velocity */
 
 #endif

@@ -12,6 +12,7 @@
 
 static const char HELP[] =
     "usage: critvel-compare [options] FILE\n"
+    "       critvel-compare convergence FILE [options]\n"
     "       critvel-compare efficiency [options] FILE\n"
     "       critvel-compare figures [options] FILE -o DIR\n"
     "       critvel-compare lines FILE [options]\n"
@@ -29,6 +30,7 @@ static const char HELP[] =
     "them above\n"
     "double precision, the largest precision, and processor time.\n"
     "\n"
+    "convergence: the stability limit as the damping falls; see critvel-compare convergence --help\n"
     "figures: the figures of the paper through gnuplot; see critvel-compare figures --help\n"
     "lines: instability lines by both methods, branch by branch; see critvel-compare lines --help\n"
     "roots: mass-induced frequencies and growth rates by both methods; see critvel-compare roots --help\n"
@@ -171,7 +173,10 @@ static cv_status work(const void *typed, const cv_arguments *arguments, FILE *ou
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} OWN_OPTIONS[] = {{"figures", cmp_figures_main}, {"lines", cmp_lines_main}, {"roots", cmp_roots_main}};
+} OWN_OPTIONS[] = {{"convergence", cmp_convergence_main},
+                   {"figures", cmp_figures_main},
+                   {"lines", cmp_lines_main},
+                   {"roots", cmp_roots_main}};
 
 /* The first word is FILE unless it is a command; a file of that name can be given as ./efficiency. */
 int main(int argc, char **argv)
