@@ -110,29 +110,40 @@ static cv_status report(finder *f, dg_bracket *b)
     return status == CV_FAILED ? status : CV_OK;
 }
 
-/* The zero between two velocities */
-static cv_status refine(finder *f, const sample *low, const sample *high)
+/* The zero between two velocities to f->digits, scale the distance over which S1 changes */
+static cv_status refine_between(finder *f, mpfr_srcptr low, mpfr_srcptr high, double scale)
 {
     dg_bracket b;
     f->bits = 64 * ((mpfr_prec_t)((f->digits + 2 * GUARD_DIGITS) * 3.33) / 64 + 1) - 1;
     f->limit = f->bits + MAX_EXTRA_BITS;
     dg_bracket_init(&b, f->bits, certain, f);
-    b.scale = high->alpha - low->alpha;
+    b.scale = scale;
     mpfr_set_si(b.tolerance, 10, RND);
     mpfr_pow_si(b.tolerance, b.tolerance, -f->digits, MPFR_RNDD);
-    mpfr_mul_d(b.tolerance, b.tolerance, low->alpha, MPFR_RNDD);
-    mpfr_set_d(b.low.at, low->alpha, RND);
-    mpfr_set_d(b.high.at, high->alpha, RND);
+    mpfr_mul(b.tolerance, b.tolerance, low, MPFR_RNDD);
+    mpfr_set(b.low.at, low, RND);
+    mpfr_set(b.high.at, high, RND);
     cv_status status = certain(&b.low, f);
     if (status == CV_OK)
         status = certain(&b.high, f);
     if (status == CV_OK)
         status = b.low.sign != b.high.sign ? dg_bracket_close(&b) : CV_UNDECIDED;
     if (status == CV_UNDECIDED)
-        doubt(f, low->alpha);
+        doubt(f, mpfr_get_d(low, RND));
     if (status != CV_FAILED)
         status = report(f, &b);
     dg_bracket_clear(&b);
+    return status;
+}
+
+static cv_status refine(finder *f, const sample *low, const sample *high)
+{
+    mpfr_t ends[2];
+    mpfr_inits2(53, ends[0], ends[1], (mpfr_ptr)NULL);
+    mpfr_set_d(ends[0], low->alpha, RND);
+    mpfr_set_d(ends[1], high->alpha, RND);
+    const cv_status status = refine_between(f, ends[0], ends[1], high->alpha - low->alpha);
+    mpfr_clears(ends[0], ends[1], (mpfr_ptr)NULL);
     return status;
 }
 
@@ -228,13 +239,23 @@ static int ascending(const void *a, const void *b)
     return mpfr_cmp(((const dg_asymptote *)a)->alpha, ((const dg_asymptote *)b)->alpha);
 }
 
+static void finder_init(finder *f)
+{
+    mpfr_inits2(53, f->alpha, f->s0, f->s1, f->more, (mpfr_ptr)NULL);
+    memset(f->list, 0, sizeof *f->list);
+}
+
+static void finder_clear(finder *f)
+{
+    mpfr_clears(f->alpha, f->s0, f->s1, f->more, (mpfr_ptr)NULL);
+}
+
 cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, const dg_branch_curves *branches,
                              double alpha_min, double alpha_max, int digits, cv_message *why)
 {
     finder f = {.track = track, .list = list, .digits = digits, .why = why};
     dg_velocities v = {0};
-    memset(list, 0, sizeof *list);
-    mpfr_inits2(53, f.alpha, f.s0, f.s1, f.more, (mpfr_ptr)NULL);
+    finder_init(&f);
     cv_status status = dg_velocities_choose(&v, branches, alpha_min, alpha_max, 0, why);
     if (status == CV_OK)
         status = scan(&f, &v);
@@ -242,7 +263,32 @@ cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, con
         qsort(list->items, list->count, sizeof *list->items, ascending);
     if (status != CV_OK)
         dg_asymptote_list_clear(list);
-    mpfr_clears(f.alpha, f.s0, f.s1, f.more, (mpfr_ptr)NULL);
+    finder_clear(&f);
     free(v.at);
+    return status;
+}
+
+cv_status dg_asymptotes_sharpen(dg_asymptote_list *list, const dg_asymptote_list *from, const dg_track *track,
+                                int digits, cv_message *why)
+{
+    finder f = {.track = track, .list = list, .digits = digits, .why = why};
+    cv_status status = CV_OK;
+    finder_init(&f);
+    for (size_t i = 0; i < from->count && status == CV_OK; i++) {
+        const dg_asymptote *rough = &from->items[i];
+        mpfr_t ends[2];
+        mpfr_inits2(mpfr_get_prec(rough->alpha), ends[0], ends[1], (mpfr_ptr)NULL);
+        mpfr_sub_d(ends[0], rough->alpha, 2 * rough->error, MPFR_RNDD);
+        mpfr_add_d(ends[1], rough->alpha, 2 * rough->error, MPFR_RNDU);
+        status = refine_between(&f, ends[0], ends[1], rough->error);
+        mpfr_clears(ends[0], ends[1], (mpfr_ptr)NULL);
+    }
+    if (from->status != CV_OK) {
+        list->status = from->status;
+        list->why = from->why;
+    }
+    if (status != CV_OK)
+        dg_asymptote_list_clear(list);
+    finder_clear(&f);
     return status;
 }

@@ -40,6 +40,9 @@ typedef struct {
  * out of memory; the list is then empty. */
 cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, const dg_branch_curves *branches,
                              double alpha_min, double alpha_max, int digits, cv_message *why);
+/* The same velocities to another number of digits, from their error bounds. */
+cv_status dg_asymptotes_sharpen(dg_asymptote_list *list, const dg_asymptote_list *from, const dg_track *track,
+                                int digits, cv_message *why);
 void dg_asymptote_list_clear(dg_asymptote_list *list);
 
 #endif

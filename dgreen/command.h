@@ -10,8 +10,10 @@
 /* What was typed: the target of main.c's option table. */
 typedef struct {
     cv_selection selection;
-    dg_grid alphas, masses;   /* --alpha and --mass-ratio for map; one number goes to the selection as well */
+    dg_grid alphas, masses;   /* --alpha and --mass-ratio; one number goes to the selection as well */
     cv_optional_number delta; /* of curve */
+    const char *output;       /* NULL: standard output */
+    int csv;                  /* --format csv; for most commands that is their text */
 } dg_options;
 
 /* As cv_work: reads FILE at path, writes the answer to out; warnings to log. */
@@ -24,5 +26,6 @@ dg_command dg_command_transitions; /* all transitions over the velocity range */
 dg_command dg_command_roots;       /* mass-induced frequencies at one velocity */
 dg_command dg_command_curve;       /* curves of figures 2 and 3 at one velocity */
 dg_command dg_command_map;         /* stability over mass ratio and velocity */
+dg_command dg_command_lines;       /* instability lines in a range of velocity and mass ratio */
 
 #endif

@@ -50,12 +50,12 @@ cv_status dg_grid_parse(dg_grid *g, const char *text, cv_message *why)
         cv_number_set(&g->last, &g->first);
         return status;
     }
-    if (second == NULL)
-        return cv_fail(why, CV_BAD_INPUT, "must be a number or first:last:count");
+    const size_t last = second == NULL ? strlen(colon + 1) : (size_t)(second - colon - 1);
+    g->count = 0;
     cv_status status = parse_part(&g->first, text, (size_t)(colon - text), why);
     if (status == CV_OK)
-        status = parse_part(&g->last, colon + 1, (size_t)(second - colon - 1), why);
-    if (status == CV_OK)
+        status = parse_part(&g->last, colon + 1, last, why);
+    if (status == CV_OK && second != NULL)
         status = parse_count(&g->count, second + 1, why);
     if (status == CV_OK && cv_number_compare(&g->first, &g->last) >= 0)
         return cv_fail(why, CV_BAD_INPUT, "the last point must be greater than the first");

@@ -118,3 +118,8 @@ cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min
         dg_lines_clear(out);
     return status;
 }
+
+cv_status dg_lines_asymptotes(dg_asymptote_list *list, const dg_lines *l, int digits, cv_message *why)
+{
+    return dg_asymptotes_sharpen(list, &l->asymptotes, l->graph->track, digits, why);
+}

@@ -48,9 +48,9 @@ typedef struct {
     dg_line_exit exits[2];    /* at the first and the last vertex */
     double asymptote[2];      /* DG_LINE_INFINITE_MASS: that velocity; else 0 */
     double asymptote_q[2];    /* and the frequency there */
-    int zero_mass; /* 1: it runs to zero mass as alpha grows: eta_M falls with alpha where it leaves the
-                      range at the bottom or at the highest velocity */
-    size_t least;  /* the vertex with the smallest eta_M */
+    int zero_mass[2]; /* 1: beyond this end the line runs to zero mass as alpha grows, followed until eta_M
+                         was a hundredth of the smallest of the range */
+    size_t least;     /* the vertex with the smallest eta_M */
 } dg_line;
 
 /* Velocities between which something was not resolved, and what */
@@ -75,6 +75,9 @@ typedef struct {
 cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min, double alpha_max,
                         double mass_min, double mass_max, cv_message *why);
 void dg_lines_clear(dg_lines *l);
+
+/* The asymptotes to that many digits. */
+cv_status dg_lines_asymptotes(dg_asymptote_list *list, const dg_lines *l, int digits, cv_message *why);
 
 /* N at one point of the plane by counting lines: twice the balance of their directions at smaller eta_M.
  * alpha in the range, mass_ratio <= mass_max. CV_UNDECIDED: on a line to double precision, or in doubt. */

@@ -101,24 +101,32 @@ static cv_status push_boundary(dg_line_graph *g, dg_line_piece *p, dg_line_exit 
     return status == CV_OK ? dg_line_piece_push(p, &point, g->why) : status;
 }
 
-/* The end "end" of a piece that leaves the range at the greatest eta_M with node i of the order: it may come
- * back, or run to infinity. */
+/* The last crossing of the line beyond the end "end" of a piece that leaves the range with node i of the
+ * order; NULL: it comes back into the range, or crosses it. */
+static const dg_line_node *last_beyond(const collector *c, size_t i, int end)
+{
+    const size_t last = end ? c->count - 1 : 0;
+    const int side = beyond(c->g, &c->g->nodes[c->order[i]]);
+    for (; beyond(c->g, &c->g->nodes[c->order[i]]) == side; i += end ? 1 : (size_t)-1)
+        if (i == last)
+            return c->closed ? NULL : &c->g->nodes[c->order[i]];
+    return NULL;
+}
+
+/* What the line does beyond the end "end" of a piece, node i of the order being the outermost that is known.
+ */
 static void look_beyond(collector *c, dg_line_piece *p, size_t i, int end)
 {
-    const dg_line_graph *g = c->g;
-    const size_t last = end ? c->count - 1 : 0;
-    if (p->exits[end] != DG_LINE_TOP || c->closed)
+    const dg_line_node *h = last_beyond(c, i, end);
+    if (h == NULL)
         return;
-    for (;; i += end ? 1 : (size_t)-1) {
-        const dg_line_node *n = &g->nodes[c->order[i]];
-        if (beyond(g, n) >= 0)
-            return; /* back again */
-        if (i == last)
-            break;
-    }
-    const dg_line_node *h = &g->nodes[c->order[last]], *before = &g->nodes[c->order[end ? last - 1 : 1]];
-    if (h->exit[end ? c->last_side : c->first_side] == DG_LINE_TOP &&
-        dg_line_runs_to_infinity(&p->asymptote[end], &p->asymptote_q[end], c->g, &before->is, &h->is))
+    const dg_line_exit exit = h->exit[end ? c->last_side : c->first_side];
+    if (exit == DG_LINE_ALPHA_MAX)
+        p->zero_mass[end] = dg_line_runs_to_zero_mass(c->g, &h->is);
+    if (exit != DG_LINE_TOP || c->count < 2)
+        return;
+    const dg_line_node *before = &c->g->nodes[c->order[end ? c->count - 2 : 1]];
+    if (dg_line_runs_to_infinity(&p->asymptote[end], &p->asymptote_q[end], c->g, &before->is, &h->is))
         p->exits[end] = DG_LINE_INFINITE_MASS;
 }
 
@@ -127,9 +135,11 @@ static cv_status end_piece(collector *c, dg_line_piece *p, size_t i, int end)
 {
     dg_line_graph *g = c->g;
     const dg_line_node here = g->nodes[c->order[i]];
-    p->asymptote[end] = p->asymptote_q[end] = 0;
+    p->asymptote[end] = p->asymptote_q[end] = p->zero_mass[end] = 0;
     if (i == (end ? c->count - 1 : 0)) {
         p->exits[end] = c->closed ? DG_LINE_CLOSED : here.exit[end ? c->last_side : c->first_side];
+        if (!c->closed)
+            look_beyond(c, p, i, end);
         return CV_OK;
     }
     const size_t outside = end ? i + 1 : i - 1;

@@ -87,6 +87,10 @@ void dg_line_polish(dg_followed *f, const dg_line_graph *g);
 int dg_line_runs_to_infinity(double *alpha, double *q, dg_line_graph *g, const dg_followed *before,
                              const dg_followed *h);
 
+/* 1: the line with the crossing h at the highest velocity goes on to zero mass as the velocity grows, as far
+ * as it was followed; 0: it does not, or it was lost. */
+int dg_line_runs_to_zero_mass(const dg_line_graph *g, const dg_followed *h);
+
 /* Turns the linked nodes into lines. */
 cv_status dg_line_collect(dg_line_graph *g);
 

@@ -151,21 +151,15 @@ static void mark(const dg_line_graph *g, const dg_line_piece *p, size_t greatest
 static dg_line_vertex vertex(const dg_line_graph *g, const dg_line_node *n)
 {
     dg_followed is = n->is;
+    const dg_crossing *c = &is.at;
     if (!n->turns)
         dg_line_polish(&is, g);
-    if (!(fabs(log(is.at.x / n->is.at.x)) < SAME_X))
+    double error = fmax(c->q_high - c->q, c->q - c->q_low);
+    if (n->turns || !(fabs(log(c->x / n->is.at.x)) < SAME_X)) {
         is = n->is; /* so steep that a spacing of alpha changes x */
-    const dg_crossing *c = &is.at;
-    const double error = n->turns ? 0 : fmax(c->q_high - c->q, c->q - c->q_low);
+        error = HUGE_VAL;
+    }
     return (dg_line_vertex){is.alpha, c->q, 1 / c->x, error, c->scale, n->turns, n->stable_roots};
-}
-
-/* eta_M falls with alpha where the line leaves the range at the bottom or at the highest velocity. */
-static int zero_mass(const dg_line *l, int end)
-{
-    const dg_line_vertex *last = &l->vertices[end ? l->count - 1 : 0], *before = end ? last - 1 : last + 1;
-    return (l->exits[end] == DG_LINE_BOTTOM || l->exits[end] == DG_LINE_ALPHA_MAX) && l->count > 1 &&
-           last->alpha > before->alpha && last->mass_ratio < before->mass_ratio;
 }
 
 static cv_status append(dg_line_graph *g, const dg_line *line)
@@ -189,6 +183,7 @@ cv_status dg_line_finish(dg_line_graph *g, dg_line_piece *p)
     dg_line line = {.vertices = calloc(p->count, sizeof *line.vertices),
                     .exits = {p->exits[0], p->exits[1]},
                     .asymptote = {p->asymptote[0], p->asymptote[1]},
+                    .zero_mass = {p->zero_mass[0], p->zero_mass[1]},
                     .asymptote_q = {p->asymptote_q[0], p->asymptote_q[1]}};
     if (stays == NULL || line.vertices == NULL) {
         free(stays);
@@ -203,7 +198,6 @@ cv_status dg_line_finish(dg_line_graph *g, dg_line_piece *p)
             line.least = line.count;
         line.vertices[line.count++] = vertex(g, &p->points[i]);
     }
-    line.zero_mass = zero_mass(&line, 0) || zero_mass(&line, 1);
     free(stays);
     status = append(g, &line);
     if (status != CV_OK)

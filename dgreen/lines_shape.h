@@ -10,6 +10,7 @@ typedef struct {
     dg_line_node *points;
     dg_line_exit exits[2];
     double asymptote[2], asymptote_q[2];
+    int zero_mass[2];
 } dg_line_piece;
 
 cv_status dg_line_piece_push(dg_line_piece *p, const dg_line_node *point, cv_message *why);
