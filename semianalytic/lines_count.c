@@ -101,6 +101,8 @@ static int passes_below(const passage *p, sa_line_store *store, double level)
         return 0;
     if (re_at(&re, &error, p, store) != CV_OK || !(fabs(re - level) > 2 * error))
         return -1;
+    if (!(re > low / clear && re < clear * high))
+        return -1; /* Newton went to another zero */
     return re > level;
 }
 
