@@ -31,8 +31,9 @@ typedef enum {
 
 typedef struct {
     cmp_end_kind kind;
-    double asymptote, asymptote_error; /* velocity at which eta_M grows to infinity from here on, q -> 0, and
-                                          its bound; NaN: none */
+    double asymptote, asymptote_error; /* velocity at which eta_M grows to infinity from here on, and its
+                                          bound; NaN: none, no bound */
+    double asymptote_q;                /* and the frequency there: mostly 0, else zeta is 0 there */
 } cmp_line_end;
 
 /* The part of a line inside the range; two more roots are unstable on its left. The polyline of the vertices

@@ -42,19 +42,40 @@ static cv_status open_handle(void **out, const cv_params *track, const cv_number
     return CV_OK;
 }
 
-static cmp_line_end end_of(const dg_line *line, int e)
+/* What the list of asymptotes says about the one at this velocity. */
+static double asymptote_error(const dg_lines *lines, double alpha)
+{
+    double error = (double)NAN, nearest = HUGE_VAL;
+    for (size_t i = 0; i < lines->asymptotes.count; i++) {
+        const dg_asymptote *a = &lines->asymptotes.items[i];
+        const double off = fabs(mpfr_get_d(a->alpha, MPFR_RNDN) - alpha);
+        if (off < nearest) {
+            nearest = off;
+            error = off + a->error;
+        }
+    }
+    return error;
+}
+
+static cmp_line_end end_of(const dg_lines *lines, const dg_line *line, int e)
 {
     static const cmp_end_kind kinds[] = {
         [DG_LINE_CLOSED] = CMP_END_CLOSED,       [DG_LINE_INFINITE_MASS] = CMP_END_MASS_HIGH,
         [DG_LINE_TOP] = CMP_END_MASS_HIGH,       [DG_LINE_BOTTOM] = CMP_END_MASS_LOW,
         [DG_LINE_ALPHA_MIN] = CMP_END_ALPHA_LOW, [DG_LINE_ALPHA_MAX] = CMP_END_ALPHA_HIGH,
         [DG_LINE_UNDECIDED] = CMP_END_UNDECIDED};
-    const double asymptote = line->exits[e] == DG_LINE_INFINITE_MASS ? line->asymptote[e] : (double)NAN;
-    return (cmp_line_end){kinds[line->exits[e]], asymptote, (double)NAN};
+    cmp_line_end end = {kinds[line->exits[e]], (double)NAN, (double)NAN, 0};
+    if (line->exits[e] != DG_LINE_INFINITE_MASS)
+        return end;
+    end.asymptote = line->asymptote[e];
+    end.asymptote_q = line->asymptote_q[e];
+    if (end.asymptote_q <= 0)
+        end.asymptote_error = asymptote_error(lines, end.asymptote);
+    return end;
 }
 
 /* alpha is a double and taken as exact, except at a turning point. */
-static cv_status copy_line(cmp_branch *to, const dg_line *from, cv_message *why)
+static cv_status copy_line(cmp_branch *to, const dg_lines *lines, const dg_line *from, cv_message *why)
 {
     for (size_t i = 0; i < from->count; i++) {
         const dg_line_vertex *v = &from->vertices[i];
@@ -69,7 +90,7 @@ static cv_status copy_line(cmp_branch *to, const dg_line *from, cv_message *why)
         p->q_error = v->turns ? (double)NAN : v->q_error;
     }
     for (int e = 0; e < 2; e++)
-        to->ends[e] = end_of(from, e);
+        to->ends[e] = end_of(lines, from, e);
     to->least_mass = from->count > 0 ? from->vertices[from->least].mass_ratio : (double)NAN;
     return CV_OK;
 }
@@ -89,7 +110,8 @@ static cv_status find(void *opaque, cmp_branches *out, int digits, cv_message *w
     }
     for (size_t i = 0; status == CV_OK && i < lines.count; i++) {
         cmp_branch *b = cmp_branches_append(out);
-        status = b != NULL ? copy_line(b, &lines.lines[i], why) : cv_fail(why, CV_FAILED, "out of memory");
+        status =
+            b != NULL ? copy_line(b, &lines, &lines.lines[i], why) : cv_fail(why, CV_FAILED, "out of memory");
     }
     if (status == CV_OK && lines.doubt_count > 0) {
         out->status = CV_UNDECIDED;

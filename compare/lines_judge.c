@@ -15,6 +15,7 @@ typedef struct {
     const cmp_line_method *const *methods;
     void *const *handles;
     int digits;
+    double log_range; /* of eta_M */
     cv_message *why;
 } judge;
 
@@ -30,9 +31,11 @@ static void judge_asymptotes(cmp_verdict *v, const cmp_line_end *a, const cmp_li
     const double bound = a->asymptote_error + b->asymptote_error;
     const double allowed = isnan(bound) ? UNBOUNDED * fabs(a->asymptote) : bound;
     const double off = fabs(a->asymptote - b->asymptote), rounding = 4e-16 * fabs(a->asymptote);
-    if (!(off <= allowed + rounding))
-        cmp_verdict_worsen(v, CMP_DISAGREE, "asymptotes at alpha = %.15g and %.15g", a->asymptote,
-                           b->asymptote);
+    if (!(off <= allowed + rounding) ||
+        !(fabs(a->asymptote_q - b->asymptote_q) <= UNBOUNDED * fabs(a->asymptote_q)))
+        cmp_verdict_worsen(v, CMP_DISAGREE,
+                           "eta_M grows to infinity at alpha = %.15g, q = %.10g and at %.15g, %.10g",
+                           a->asymptote, a->asymptote_q, b->asymptote, b->asymptote_q);
 }
 
 static void judge_ends(const judge *j, const cmp_branch *a, const cmp_branch *b)
@@ -64,12 +67,13 @@ static size_t turns(const cmp_branch *b)
     return n;
 }
 
+/* A least mass without a bound is that of a vertex: the polyline's chord error from the truth. */
 static void judge_extremes(const judge *j, const cmp_branch *a, const cmp_branch *b)
 {
     cmp_verdict *v = &j->pair->verdict;
     const double bound = a->least_mass_error + b->least_mass_error;
-    const double off = fabs(a->least_mass - b->least_mass) / fabs(a->least_mass);
-    if (!(off <= (isnan(bound) ? UNBOUNDED : bound + 4e-16)))
+    const double off = fabs(log(a->least_mass / b->least_mass));
+    if (!(off <= (isnan(bound) ? PLOT_TOLERANCE * j->log_range : bound + 4e-16)))
         cmp_verdict_worsen(v, CMP_DISAGREE, "smallest eta_M %.15g by %s, %.15g by %s", a->least_mass,
                            j->methods[0]->name, b->least_mass, j->methods[1]->name);
     if (turns(a) != turns(b))
@@ -132,17 +136,23 @@ static void judge_points(const judge *j, int by_q, const cmp_line_point *a, cons
     pair->vertices++;
 }
 
-/* What a vertex claims against the point of its own method at the same coordinate: within its bounds, and
- * where it has none not far off. */
+static int within(mpfr_srcptr claimed, mpfr_srcptr found, double bound)
+{
+    const double size = fabs(mpfr_get_d(found, MPFR_RNDN));
+    return relative(found, claimed) * size <= (isnan(bound) ? UNBOUNDED * size : bound) + 4e-16 * size;
+}
+
+/* What a vertex claims against the point of its own method at the same coordinate: within its bounds where
+ * that coordinate is exact, else not far off. A mass without a bound is left to the distance of the
+ * polylines: it may change with alpha and q faster than doubles resolve. */
 static void judge_vertex(const judge *j, int m, int by_q, const cmp_line_point *vertex,
                          const cmp_line_point *own)
 {
-    const double error = by_q ? vertex->alpha_error : vertex->q_error;
-    mpfr_srcptr claimed = by_q ? vertex->alpha : vertex->q, found = by_q ? own->alpha : own->q;
-    const double size = mpfr_get_d(found, MPFR_RNDN);
-    const double allowed = (error > 0 ? error : UNBOUNDED * size) + 4e-16 * size;
-    if (!(relative(found, claimed) * size <= allowed) ||
-        !(relative(own->eta_M, vertex->eta_M) <= fmax(UNBOUNDED, vertex->eta_M_error)))
+    const int exact = (by_q ? vertex->q_error : vertex->alpha_error) <= 0;
+    const double bound = exact ? (by_q ? vertex->alpha_error : vertex->q_error) : (double)NAN;
+    const double mass_bound = exact ? vertex->eta_M_error + own->eta_M_error : (double)NAN;
+    if (!within(by_q ? vertex->alpha : vertex->q, by_q ? own->alpha : own->q, bound) ||
+        !(isnan(vertex->eta_M_error) || within(vertex->eta_M, own->eta_M, mass_bound)))
         cmp_verdict_worsen(&j->pair->verdict, CMP_DISAGREE,
                            "the vertex of %s at alpha = %.15g, q = %.15g is not on its line",
                            j->methods[m]->name, mpfr_get_d(vertex->alpha, MPFR_RNDN),
@@ -230,7 +240,8 @@ cv_status cmp_branches_judge(cmp_branch_pair *pair, const cmp_branches lists[CMP
                              const cmp_line_method *const methods[CMP_METHODS],
                              void *const handles[CMP_METHODS], int digits, cv_message *why)
 {
-    const judge j = {pair, methods, handles, digits, why};
+    const double log_range = log(lists[0].mass_max / lists[0].mass_min);
+    const judge j = {pair, methods, handles, digits, log_range, why};
     const cmp_branch *a = pair->by[0], *b = pair->by[1];
     if (a == NULL || b == NULL) {
         judge_alone(&j, lists, a != NULL ? a : b);

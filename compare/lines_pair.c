@@ -10,7 +10,7 @@ static const double PAIR_DISTANCE = 0.02;
  * in the plot differ in q. */
 static const double WEIGHT_OF_Q = 0.05;
 /* Between branches that are near one another everywhere those with the same ends belong together. */
-static const double OTHER_ENDS = 0.005;
+static const double OTHER_ENDS = 5e-4;
 
 /* A vertex in the plot; coordinates in parts of the range, and log q with its weight. */
 typedef struct {
@@ -55,16 +55,16 @@ static int runs_with(const polyline *p, size_t i, const place *c, const place *d
            (i + 1 < p->count && along(&p->at[i], &p->at[i + 1], c, d));
 }
 
-/* Distance of p from the step c -> d. */
-static double distance_to_step(const place *p, const place *c, const place *d)
+/* Distance of p from the step c -> d in the first two or in all three coordinates. */
+static double distance_to_step(const place *p, const place *c, const place *d, int coordinates)
 {
     double length = 0, part = 0, sum = 0;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < coordinates; k++) {
         length += (d->x[k] - c->x[k]) * (d->x[k] - c->x[k]);
         part += (d->x[k] - c->x[k]) * (p->x[k] - c->x[k]);
     }
     part = length > 0 ? fmin(fmax(part / length, 0), 1) : 0;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < coordinates; k++) {
         const double gap = p->x[k] - c->x[k] - part * (d->x[k] - c->x[k]);
         sum += gap * gap;
     }
@@ -72,40 +72,39 @@ static double distance_to_step(const place *p, const place *c, const place *d)
 }
 
 /* Largest distance of a vertex of a from b; stops above PAIR_DISTANCE. NaN coordinates are infinitely far. */
-static double reach_of(const polyline *a, const polyline *b)
+static double reach_of(const polyline *a, const polyline *b, int coordinates)
 {
     double largest = 0;
     for (size_t i = 0; i < a->count && largest <= PAIR_DISTANCE; i++) {
-        double nearest = b->count == 1 ? distance_to_step(&a->at[i], &b->at[0], &b->at[0]) : HUGE_VAL;
+        double nearest =
+            b->count == 1 ? distance_to_step(&a->at[i], &b->at[0], &b->at[0], coordinates) : HUGE_VAL;
         for (size_t k = 0; k + 1 < b->count; k++)
             if (runs_with(a, i, &b->at[k], &b->at[k + 1]))
-                nearest = fmin(nearest, distance_to_step(&a->at[i], &b->at[k], &b->at[k + 1]));
+                nearest = fmin(nearest, distance_to_step(&a->at[i], &b->at[k], &b->at[k + 1], coordinates));
         largest = fmax(largest, isnan(nearest) ? HUGE_VAL : nearest);
     }
     return largest;
 }
 
-static double distance(const polyline *a, const polyline *b)
+static double distance(const polyline *a, const polyline *b, int coordinates)
 {
     for (int k = 0; k < 2; k++)
         if (!(fabs(a->low[k] - b->low[k]) <= PAIR_DISTANCE) ||
             !(fabs(a->high[k] - b->high[k]) <= PAIR_DISTANCE))
             return HUGE_VAL;
-    const double there = reach_of(a, b);
-    return there <= PAIR_DISTANCE ? fmax(there, reach_of(b, a)) : there;
+    const double there = reach_of(a, b, coordinates);
+    return there <= PAIR_DISTANCE ? fmax(there, reach_of(b, a, coordinates)) : there;
 }
 
 static int same_ends(const cmp_branch *a, const cmp_branch *b)
 {
-    return a->ends[0].kind == b->ends[0].kind && a->ends[1].kind == b->ends[1].kind &&
-           isnan(a->ends[0].asymptote) == isnan(b->ends[0].asymptote) &&
-           isnan(a->ends[1].asymptote) == isnan(b->ends[1].asymptote);
+    return a->ends[0].kind == b->ends[0].kind && a->ends[1].kind == b->ends[1].kind;
 }
 
 /* Distances of all branches of one list from all of the other. */
 typedef struct {
     size_t rows, columns;
-    double *at;
+    double *at, *in_plot; /* with and without q */
 } matrix;
 
 static int all_polylines(polyline *out, const cmp_branches *in)
@@ -120,22 +119,31 @@ static int matrix_init(matrix *m, const cmp_branches lists[])
 {
     polyline *p[CMP_METHODS];
     int done = 1;
-    *m = (matrix){lists[0].count, lists[1].count, NULL};
+    *m = (matrix){lists[0].count, lists[1].count, NULL, NULL};
     for (int k = 0; k < CMP_METHODS; k++) {
         p[k] = calloc(lists[k].count + 1, sizeof *p[k]);
         done = done && p[k] != NULL && all_polylines(p[k], &lists[k]);
     }
     m->at = malloc((m->rows * m->columns + 1) * sizeof *m->at);
-    done = done && m->at != NULL;
+    m->in_plot = malloc((m->rows * m->columns + 1) * sizeof *m->in_plot);
+    done = done && m->at != NULL && m->in_plot != NULL;
     for (size_t i = 0; done && i < m->rows; i++)
-        for (size_t j = 0; j < m->columns; j++)
-            m->at[i * m->columns + j] = distance(&p[0][i], &p[1][j]);
+        for (size_t j = 0; j < m->columns; j++) {
+            m->at[i * m->columns + j] = distance(&p[0][i], &p[1][j], 3);
+            m->in_plot[i * m->columns + j] = distance(&p[0][i], &p[1][j], 2);
+        }
     for (int k = 0; k < CMP_METHODS; k++) {
         for (size_t i = 0; p[k] != NULL && i < lists[k].count; i++)
             free(p[k][i].at);
         free(p[k]);
     }
     return done;
+}
+
+static void matrix_clear(matrix *m)
+{
+    free(m->at);
+    free(m->in_plot);
 }
 
 /* Index of the smallest of count values, "step" apart, with what other ends add; SIZE_MAX: all too large. */
@@ -183,7 +191,7 @@ cv_status cmp_branches_pair(cmp_branch_pairs *out, const cmp_branches lists[CMP_
     matrix m;
     *out = (cmp_branch_pairs){0, malloc((lists[0].count + lists[1].count + 1) * sizeof *out->pairs)};
     if (!matrix_init(&m, lists) || out->pairs == NULL) {
-        free(m.at);
+        matrix_clear(&m);
         cmp_branch_pairs_clear(out);
         return cv_fail(why, CV_FAILED, "out of memory");
     }
@@ -191,14 +199,14 @@ cv_status cmp_branches_pair(cmp_branch_pairs *out, const cmp_branches lists[CMP_
         const size_t j = nearest(&m, lists, 0, i);
         const int mutual = j != SIZE_MAX && nearest(&m, lists, 1, j) == i;
         out->pairs[out->count++] = pair_of(&lists[0].branches[i], mutual ? &lists[1].branches[j] : NULL,
-                                           mutual ? m.at[i * m.columns + j] : (double)NAN);
+                                           mutual ? m.in_plot[i * m.columns + j] : (double)NAN);
     }
     for (size_t j = 0; j < m.columns; j++) {
         const size_t i = nearest(&m, lists, 1, j);
         if (i == SIZE_MAX || nearest(&m, lists, 0, i) != j)
             out->pairs[out->count++] = pair_of(NULL, &lists[1].branches[j], (double)NAN);
     }
-    free(m.at);
+    matrix_clear(&m);
     qsort(out->pairs, out->count, sizeof *out->pairs, by_velocity);
     return CV_OK;
 }

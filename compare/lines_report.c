@@ -7,7 +7,7 @@
 #include "compare/json_parts.h"
 #include "compare/table.h"
 
-enum { SHOWN = 10, PARAMETER_DIGITS = 20 };
+enum { SHOWN = 10, DAMPING_DIGITS = 6, RANGE_DIGITS = 20 };
 
 static const cmp_branch *any(const cmp_branch_pair *p)
 {
@@ -76,7 +76,7 @@ static cv_status print_branches(FILE *out, const cmp_lines_run *run, const cmp_l
     cmp_table_add(&t, heading);
     for (size_t l = 0; l < c->level_count; l++) {
         cmp_damping_text damping;
-        cmp_format_damping(&damping, &c->levels[l].params, PARAMETER_DIGITS);
+        cmp_format_damping(&damping, &c->levels[l].params, DAMPING_DIGITS);
         for (size_t i = 0; i < c->levels[l].pairs.count; i++)
             add_branch(&t, run, damping.text, &c->levels[l].pairs.pairs[i]);
     }
@@ -102,7 +102,7 @@ static cv_status print_counts(FILE *out, const cmp_lines_run *run, const cmp_lin
         for (size_t i = 0; i < 6; i++)
             snprintf(text[i], sizeof text[i], "%zu", numbers[i]);
         cmp_table_add(&t, (const char *const[]){
-                              cmp_format_damping(&damping, &c->levels[l].params, PARAMETER_DIGITS), text[0],
+                              cmp_format_damping(&damping, &c->levels[l].params, DAMPING_DIGITS), text[0],
                               text[1], text[2], text[3], text[4], text[5], cmp_kind_name(s->verdict.kind)});
     }
     fprintf(out, "\n  unstable roots counted by both methods, undecided also by method, seed %lu\n\n",
@@ -133,7 +133,7 @@ static void print_reasons(FILE *out, const cmp_lines_run *run, const cmp_lines_c
     for (size_t l = 0; l < c->level_count; l++) {
         const cmp_lines_level *level = &c->levels[l];
         cmp_damping_text damping;
-        cmp_format_damping(&damping, &level->params, PARAMETER_DIGITS);
+        cmp_format_damping(&damping, &level->params, DAMPING_DIGITS);
         print_doubts(out, run, level, damping.text);
         for (size_t i = 0; i < level->pairs.count; i++)
             print_reason(out, damping.text, &level->pairs.pairs[i].verdict);
@@ -167,7 +167,7 @@ cv_status cmp_lines_report_text(FILE *out, const cmp_lines_run *run, cv_message 
 {
     cmp_number_text range[4];
     for (int i = 0; i < 4; i++)
-        cmp_format_exact(&range[i], run->task.range[i], PARAMETER_DIGITS);
+        cmp_format_exact(&range[i], run->task.range[i], RANGE_DIGITS);
     fprintf(out, "critvel-compare %s lines: %s against %s, %s <= alpha <= %s, %s <= eta_M <= %s, %d digits\n",
             CV_VERSION, run->methods[0]->name, run->methods[1]->name, range[0].text, range[1].text,
             range[2].text, range[3].text, run->task.digits);
@@ -259,7 +259,7 @@ cv_status cmp_lines_report_json(FILE *out, const cmp_lines_run *run, cv_message 
     cmp_number_text range[4];
     int failed = 0;
     for (int i = 0; i < 4; i++)
-        cmp_format_exact(&range[i], run->task.range[i], PARAMETER_DIGITS);
+        cmp_format_exact(&range[i], run->task.range[i], RANGE_DIGITS);
     for (size_t i = 0; i < run->case_count; i++)
         failed |= json_array_append_new(cases, json_case(run, &run->cases[i], &failed));
     json_t *root = json_pack("{s:s, s:s, s:s, s:i, s:{s:s, s:s}, s:{s:s, s:s}, s:I, s:o}", "schema",

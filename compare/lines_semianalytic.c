@@ -81,11 +81,14 @@ static cmp_line_end end_of(const sa_lines *lines, const sa_line_end *end)
         [SA_END_CLOSED] = CMP_END_CLOSED,         [SA_END_ALPHA_LOW] = CMP_END_ALPHA_LOW,
         [SA_END_ALPHA_HIGH] = CMP_END_ALPHA_HIGH, [SA_END_MASS_LOW] = CMP_END_MASS_LOW,
         [SA_END_MASS_HIGH] = CMP_END_MASS_HIGH,   [SA_END_UNDECIDED] = CMP_END_UNDECIDED};
-    cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN};
+    cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN, 0};
     if (end->beyond == SA_BEYOND_ASYMPTOTE) {
         const sa_asymptote *a = &lines->asymptotes.item[end->number];
         out.asymptote = mpfr_get_d(a->alpha, MPFR_RNDN);
         out.asymptote_error = a->alpha_error;
+    } else if (end->beyond == SA_BEYOND_ZERO) {
+        out.asymptote = end->zero_alpha;
+        out.asymptote_q = end->zero_q;
     }
     return out;
 }

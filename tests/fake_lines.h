@@ -27,6 +27,7 @@ typedef struct {
     int reverse;         /* 1 + line that runs the other way */
     int end;             /* 1 + line whose first end is called the lowest velocity */
     double asymptote;    /* added to the asymptotes */
+    double asymptote_q;  /* their frequency */
     double least;        /* relative, of the least masses */
     int bend;            /* 1 + line with one turning point more */
     int nan;             /* 1 + line with a vertex that is not a number */
@@ -153,13 +154,14 @@ static void fake_branch(cmp_branches *out, const line_faults *f, int line)
     if (b == NULL)
         abort();
     fake_vertices(b, f, line);
-    const cmp_line_end closed = {CMP_END_CLOSED, (double)NAN, (double)NAN},
-                       bottom = {CMP_END_MASS_LOW, (double)NAN, (double)NAN},
-                       top = {CMP_END_MASS_HIGH, (line == 0 ? 0.5 : 0.75) + f->asymptote, 1e-16};
+    const cmp_line_end closed = {CMP_END_CLOSED, (double)NAN, (double)NAN, 0},
+                       bottom = {CMP_END_MASS_LOW, (double)NAN, (double)NAN, 0},
+                       top = {CMP_END_MASS_HIGH, (line == 0 ? 0.5 : 0.75) + f->asymptote, 1e-16,
+                              f->asymptote_q};
     b->ends[0] = line == 2 ? closed : line == 0 ? top : bottom;
     b->ends[1] = line == 2 ? closed : line == 0 ? bottom : top;
     if (f->end == line + 1)
-        b->ends[0] = (cmp_line_end){CMP_END_ALPHA_LOW, (double)NAN, (double)NAN};
+        b->ends[0] = (cmp_line_end){CMP_END_ALPHA_LOW, (double)NAN, (double)NAN, 0};
     b->least_mass = (line == 2 ? 8 : 1) * (1 + f->least);
     b->least_mass_error = 1e-12;
 }

@@ -163,7 +163,9 @@ START_TEST(other_ends_and_extremes_disagree)
     fake_line[0].end = 2;
     expect(CMP_DISAGREE, "the branch begins at the lowest velocity by semianalytic, at the smallest mass");
     fake_line[1].asymptote = 1e-15;
-    expect(CMP_DISAGREE, "asymptotes at alpha = 0.5 and 0.500000000000001");
+    expect(CMP_DISAGREE, "at alpha = 0.5, q = 0 and at 0.500000000000001, 0");
+    fake_line[0].asymptote_q = 0.1;
+    expect(CMP_DISAGREE, "at alpha = 0.5, q = 0.1 and at 0.5, 0");
     fake_line[0].least = 1e-10;
     expect(CMP_DISAGREE, "smallest eta_M 1.0000000001 by semianalytic");
     fake_line[0].bend = 1;
