@@ -193,12 +193,21 @@ verify "rail, sleepers, ballast: less and less" sh -c "echo '$(block "$folder/st
 exits 1 "steady shapes at a resonance velocity" "$paper" -o "$folder/steady" --only steady --case 3 --alpha 0.44485524035145315
 verify "it is said" grep -q '^steady-3 .*not drawn' "$folder/out"
 
-# Names of cases become names of files.
-awk '/^\[case 3\]/ { print "[case ../$(touch x) '"'"'_^{}\\]"; next } /^\[case 4\]/ { print "[case ..-$-touch-x- _^{}\\]"; next } { print }' \
-    "$paper" >"$folder/names.ini"
+# Names of cases become names of files, and text in the pictures; nothing in them is a command or markup.
+cat >"$folder/names.awk" <<'END'
+/^\[case 2\]/ { print "[case \"` touch " ran " `\"]"; next }
+/^\[case 3\]/ { print "[case ../$(touch x) '_^{}\\]"; next }
+/^\[case 4\]/ { print "[case ..-` touch x `__^{}\\]"; next }
+{ print }
+END
+awk -v ran="$folder/r" -f "$folder/names.awk" "$paper" >"$folder/names.ini"
 exits 0 "names that are not file names" "$folder/names.ini" -o "$folder/names dir's" --only 6 --format svg
-verify "all four are there" test "$(ls "$folder/names dir's"/*.svg | wc -l)" -eq 4
-verify "nothing ran" test ! -e x -a ! -e "$folder/x"
+verify "all four are there, also the two that would be the same" test "$(ls "$folder/names dir's"/*.svg | wc -l)" -eq 4
+exits 0 "such a name in a title" "$folder/names.ini" -o "$folder/names" --only 3 --case "../\$(touch x) '_^{}\\" --format svg
+verify "it is there as it is" grep -q "case ../\$(touch x) '_^{}\\\\, damping" "$folder"/names/*.svg
+exits 0 "commands in a title" "$folder/names.ini" -o "$folder/names" --only 2 --format svg \
+    --case "\"\` touch $folder/r \`\""
+verify "nothing ran" test ! -e "$folder/r"
 
 refuses 2 'missing option -o' "no folder" "$paper"
 refuses 2 'needs a value' "-o without a value" "$paper" -o
