@@ -52,7 +52,7 @@ is_pdf() { head -c 5 "$1" | grep -q '%PDF-' && tail -c 7 "$1" | grep -q '%%EOF';
 block() { awk -v name="# $2" '/^# alpha/ { next } /^#.*,/ { if (on) print; next } /^#/ { on = $0 == name; next } on' "$1"; }
 
 # close A B RELATIVE
-close() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; if (b < 0) b = -b; exit !(d <= r * b) }'; }
+close() { awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; if (b < 0) b = -b; exit !(a != "" && d <= r * b) }'; }
 
 # peaks COLUMN SIGN FILE: local maxima of SIGN * column along the curve, rounded as the paper prints them
 peaks() {
@@ -104,6 +104,9 @@ done <<'END'
 3 34.66667
 4 44.33333
 END
+# There, and without waves yet, the smallest deflection is that of a beam on springs: -exp(-pi) of the largest.
+verify "case 1: uplift nearly at rest" close "$(block "$first/deflection-1.dat" curves | awk 'NF == 4 { print $3 / $2; exit }')" \
+    -0.0432139 0.05
 # Above the last true resonance of case 3 the wave has left the active point: "the sudden jump to zero deflection".
 verify "case 3: nothing at the active point above 0.7501" sh -c "block() { :; }; awk 'NF == 4 && \$1 > 0.7501 { n++; if (\$4 > 1e-6 || \$4 < -1e-6) exit 1 } END { exit !(n > 100) }' '$first/deflection-3.dat'"
 
@@ -179,6 +182,8 @@ exits 0 "map" "$paper" -o "$folder/map" --only map --case 1 --damping 0.05 --for
 verify "map-1.svg is SVG" is_svg "$folder/map/map-1.svg"
 block "$folder/map/map-1.dat" "map 1" | awk 'NF == 4 && ++n % 1607 == 800' >"$folder/fields"
 verify "stable and unstable fields among them" test "$(awk '{ print $3 }' "$folder/fields" | sort -u | wc -l)" -eq 2
+verify "fields in the middle of the picture" close "$(block "$folder/map/map-1.dat" "map 1" |
+    awk 'NF == 4 { b = $2; if (!n++) a = b } END { print a * b }')" 1000 1e-6
 while read -r alpha eta_M roots growth; do
     verify "map at alpha $alpha, eta_M $eta_M" same_roots "$alpha" "$eta_M" "$roots" "$growth"
 done <"$folder/fields"
