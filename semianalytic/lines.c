@@ -43,7 +43,7 @@ static void set_plot(sa_line_store *s)
     s->plot.log_span = log(high / low);
     s->plot.re_low = 1 / high;
     s->plot.re_high = 1 / low;
-    s->re_floor = fmin(1e-12, 0.01 / high); /* there q is so small that lines stand upright on asymptotes */
+    s->re_floor = fmin(1e-9, 0.1 / high); /* there q is so small that lines stand upright on asymptotes */
 }
 
 static cv_status store_new(sa_line_store **out, const cv_params *params, const sa_lines_range *range,

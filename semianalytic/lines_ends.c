@@ -149,7 +149,7 @@ static int fits(const sa_asymptote *a, const descent *d)
  * upset it: then only what is near and fits is joined. */
 static cv_status match(sa_lines *lines, const descent *d, size_t count)
 {
-    const double near = 1e-4;
+    const double near = 1e-3;
     const sa_asymptote_list *list = &lines->asymptotes;
     cv_status status = CV_OK;
     size_t next = 0;
