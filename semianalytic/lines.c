@@ -88,6 +88,7 @@ static void forget(sa_lines *lines)
     lines->place = NULL;
     lines->place_count = lines->line_count = s->line_count = 0;
     lines->decided = CV_OK;
+    s->torn = 0;
 }
 
 /* One search of the map; what does not fit together is listed in lines. */
@@ -97,6 +98,7 @@ static cv_status run_pass(sa_lines *lines, int refinement)
     sa_line_trace trace = {.map = &s->map, .plot = s->plot, .re_floor = s->re_floor};
     forget(lines);
     cv_status status = sa_lines_trace(&trace, s->field, refinement);
+    s->torn = trace.place_count > 0 || status == CV_UNDECIDED;
     if (status == CV_UNDECIDED)
         status = sa_lines_doubt(lines, s->map.curves.alpha_min, 0, "the search for lines came to no end");
     if (status == CV_OK)
@@ -115,7 +117,7 @@ static cv_status find(sa_lines *lines, int digits)
 {
     enum { PASSES = 3 };
     cv_status status = run_pass(lines, 0);
-    for (int i = 1; i < PASSES && status == CV_OK && lines->decided != CV_OK; ++i)
+    for (int i = 1; i < PASSES && status == CV_OK && lines->store->torn; ++i)
         status = run_pass(lines, i);
     return status == CV_OK ? sa_lines_cut(lines, digits) : status;
 }

@@ -22,11 +22,12 @@ cv_status sa_lines_doubt(sa_lines *lines, double alpha, double q, const char *wh
     return sa_line_place_add(&lines->place, &lines->place_count, alpha, q);
 }
 
-/* Newton's iteration in (alpha, q) to zeta = 0 from the end of a line. 1: there is one near. */
+/* Newton's iteration in (alpha, q) to zeta = 0 from the end of a line. 1: there is one so near that it must
+ * be where the line ends. */
 static int near_zero(sa_line_end *end, const sa_line_store *store, const sa_line_sample *s)
 {
     enum { STEPS = 20 };
-    const double reach = 0.5, converged = 1e-9, spacing = 1e-14;
+    const double reach = 1e-3, converged = 1e-9, spacing = 1e-14;
     double alpha = s->alpha, q = s->q;
     for (int i = 0; i < STEPS; ++i) {
         sa_value v;
@@ -54,7 +55,7 @@ static int near_zero(sa_line_end *end, const sa_line_store *store, const sa_line
  * there. */
 static int at_zero(const sa_line_sample *s)
 {
-    const double spacing = 1e-14;
+    const double spacing = 1e-11;
     double det = s->re_alpha * s->im_q - s->re_q * s->im_alpha;
     return fabs(s->re * s->im_q / det) < spacing && fabs(s->re * s->im_alpha / det) < spacing;
 }
@@ -165,6 +166,7 @@ static cv_status match(sa_lines *lines, const descent *d, size_t count)
         if (found == count || !fits(a, &d[found]) || !(fabs(d[found].alpha - alpha) < near * alpha)) {
             int above;
             status = stays_above(&above, lines->store, a);
+            lines->store->torn |= !above;
             if (status == CV_OK && !above)
                 status = sa_lines_doubt(lines, alpha, 0, "an asymptote without a line");
             continue;
@@ -213,12 +215,14 @@ static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_samp
 
 static cv_status settle(sa_lines *lines, size_t number, int at)
 {
-    const sa_line_store *store = lines->store;
+    sa_line_store *store = lines->store;
     const sa_line *line = &store->line[number];
     const sa_line_sample *s = &store->samples.item[line->first + (at == 0 ? 0 : line->count - 1)];
     sa_line_end *end = &store->end[number][at];
-    if (end->kind == SA_END_UNDECIDED)
+    if (end->kind == SA_END_UNDECIDED) {
+        store->torn = 1;
         return sa_lines_doubt(lines, s->alpha, s->q, "a line ends");
+    }
     if (end->kind == SA_END_MASS_HIGH && end->beyond == SA_BEYOND_NOTHING)
         return sink(lines, number, at, s, at == 0 ? s + 1 : s - 1);
     return CV_OK;

@@ -82,16 +82,21 @@ static int move(parabola *p)
 static cv_status approach(parabola *p, double scale, double tolerance, double *left)
 {
     enum { STEPS = 60 };
-    double width = 1e-2;
+    const double widest = 1e-2;
+    double width = widest;
     for (int i = 0, narrowed = 0; i < STEPS; ++i) {
         mpfr_set_d(p->h, scale * width, MPFR_RNDN);
         cv_status status = fit(p);
         if (status == CV_FAILED)
             return status;
-        if (status != CV_OK)
-            width /= 8; /* the line bends too much over this width */
-        if (status != CV_OK || !move(p))
+        if (status != CV_OK) {
+            scale /= 8; /* the line bends too much over this width */
             continue;
+        }
+        if (!move(p)) {
+            width = fmin(8 * width, widest);
+            continue;
+        }
         *left = last_change(p);
         if (narrowed++ && *left < tolerance)
             return CV_OK;

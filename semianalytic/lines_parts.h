@@ -83,6 +83,7 @@ struct sa_line_store {
     size_t line_count;
     sa_line *line;
     sa_line_end (*end)[2]; /* of each line; kind SA_END_MASS_HIGH where it runs to infinite mass */
+    int torn;              /* the search has left something out: finer cells may help */
 };
 
 /* Finds out how the lines end; what is undecided is reported by sa_lines_doubt. */
