@@ -34,6 +34,8 @@ typedef struct {
     double asymptote, asymptote_error; /* velocity at which eta_M grows to infinity from here on, and its
                                           bound; NaN: none, no bound */
     double asymptote_q;                /* and the frequency there: mostly 0, else zeta is 0 there */
+    int zero_mass;                     /* 1: found to go on to zero mass as alpha grows to infinity; 0 claims
+                                          nothing, so that it is reported, not judged */
 } cmp_line_end;
 
 /* The part of a line inside the range; two more roots are unstable on its left. The polyline of the vertices

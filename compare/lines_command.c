@@ -22,7 +22,7 @@ static const char HELP[] =
     "  --damping X       eta_p = eta_b = eta_f = X instead of the levels of the file\n"
     "  --alpha LOW:HIGH  range of velocities; default: that of the file\n"
     "  --mass-ratio LOW:HIGH\n"
-    "                    range of mass ratios; default: 1:1000\n"
+    "                    range of mass ratios; default: 1:10000\n"
     "  --digits N        digits of the points compared; default: those of the file\n"
     "  --samples N       sample points of each case and damping level; default: 10000\n"
     "  --seed N          of the sample points; default: 1\n"
@@ -163,7 +163,7 @@ int cmp_lines_main(int argc, char **argv)
     options o = {.samples = 10000, .seed = 1};
     cv_selection_init(&o.selection);
     range_init(&o.alpha, "1", "2"); /* unless given, that of the file is used */
-    range_init(&o.mass_ratio, "1", "1000");
+    range_init(&o.mass_ratio, "1", "10000");
     const int status = cv_main(&program, &o, argc, argv);
     cv_selection_clear(&o.selection);
     range_clear(&o.alpha);

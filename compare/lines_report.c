@@ -28,7 +28,9 @@ static const char *end_name(cmp_end_kind kind)
 
 static void end_text(char *out, size_t size, const cmp_line_end *e)
 {
-    if (isnan(e->asymptote))
+    if (e->zero_mass)
+        snprintf(out, size, "%s, zero mass", end_name(e->kind));
+    else if (isnan(e->asymptote))
         snprintf(out, size, "%s", end_name(e->kind));
     else
         snprintf(out, size, "asymptote %.*g", SHOWN, e->asymptote);
@@ -187,7 +189,8 @@ cv_status cmp_lines_report_text(FILE *out, const cmp_lines_run *run, cv_message 
 
 static json_t *json_end(const cmp_line_end *e)
 {
-    return json_pack("{s:s, s:o}", "at", end_name(e->kind), "asymptote", cmp_json_number(e->asymptote));
+    return json_pack("{s:s, s:b, s:o, s:f}", "at", end_name(e->kind), "to_zero_mass", e->zero_mass,
+                     "asymptote", cmp_json_number(e->asymptote), "asymptote_q", e->asymptote_q);
 }
 
 static json_t *json_branch(const cmp_branch *b)

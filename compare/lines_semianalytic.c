@@ -75,13 +75,15 @@ static void copy_vertex(cmp_line_point *to, const sa_line_vertex *from)
     to->decided = from->decided;
 }
 
-static cmp_line_end end_of(const sa_lines *lines, const sa_line_end *end)
+static cmp_line_end end_of(const sa_lines *lines, const sa_branch *branch, const sa_line_end *end)
 {
     static const cmp_end_kind kinds[] = {
         [SA_END_CLOSED] = CMP_END_CLOSED,         [SA_END_ALPHA_LOW] = CMP_END_ALPHA_LOW,
         [SA_END_ALPHA_HIGH] = CMP_END_ALPHA_HIGH, [SA_END_MASS_LOW] = CMP_END_MASS_LOW,
         [SA_END_MASS_HIGH] = CMP_END_MASS_HIGH,   [SA_END_UNDECIDED] = CMP_END_UNDECIDED};
-    cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN, 0};
+    cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN, 0, 0};
+    out.zero_mass = branch->kind == SA_LINE_ZERO_MASS &&
+                    (end->kind == SA_END_ALPHA_HIGH || end->beyond == SA_BEYOND_ALPHA_HIGH);
     if (end->beyond == SA_BEYOND_ASYMPTOTE) {
         const sa_asymptote *a = &lines->asymptotes.item[end->number];
         out.asymptote = mpfr_get_d(a->alpha, MPFR_RNDN);
@@ -113,8 +115,8 @@ static cv_status copy_branch(cmp_branch *to, const sa_lines *lines, const sa_bra
             return cv_fail(why, CV_FAILED, "out of memory");
         copy_vertex(p, &from->vertex[i]);
     }
-    to->ends[0] = end_of(lines, &from->start);
-    to->ends[1] = end_of(lines, &from->end);
+    to->ends[0] = end_of(lines, from, &from->start);
+    to->ends[1] = end_of(lines, from, &from->end);
     set_least(to, from);
     return CV_OK;
 }

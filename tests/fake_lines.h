@@ -26,6 +26,7 @@ typedef struct {
     int no_bounds;       /* vertices without bounds, as from double precision */
     int reverse;         /* 1 + line that runs the other way */
     int end;             /* 1 + line whose first end is called the lowest velocity */
+    int zero_mass;       /* 1 + line of which the first end is said to run to zero mass */
     double asymptote;    /* added to the asymptotes */
     double asymptote_q;  /* their frequency */
     double least;        /* relative, of the least masses */
@@ -154,14 +155,15 @@ static void fake_branch(cmp_branches *out, const line_faults *f, int line)
     if (b == NULL)
         abort();
     fake_vertices(b, f, line);
-    const cmp_line_end closed = {CMP_END_CLOSED, (double)NAN, (double)NAN, 0},
-                       bottom = {CMP_END_MASS_LOW, (double)NAN, (double)NAN, 0},
+    const cmp_line_end closed = {CMP_END_CLOSED, (double)NAN, (double)NAN, 0, 0},
+                       bottom = {CMP_END_MASS_LOW, (double)NAN, (double)NAN, 0, 0},
                        top = {CMP_END_MASS_HIGH, (line == 0 ? 0.5 : 0.75) + f->asymptote, 1e-16,
-                              f->asymptote_q};
+                              f->asymptote_q, 0};
     b->ends[0] = line == 2 ? closed : line == 0 ? top : bottom;
     b->ends[1] = line == 2 ? closed : line == 0 ? bottom : top;
+    b->ends[0].zero_mass = f->zero_mass == line + 1;
     if (f->end == line + 1)
-        b->ends[0] = (cmp_line_end){CMP_END_ALPHA_LOW, (double)NAN, (double)NAN, 0};
+        b->ends[0] = (cmp_line_end){CMP_END_ALPHA_LOW, (double)NAN, (double)NAN, 0, 0};
     b->least_mass = (line == 2 ? 8 : 1) * (1 + f->least);
     b->least_mass_error = 1e-12;
 }

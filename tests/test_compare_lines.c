@@ -254,6 +254,7 @@ START_TEST(reports_say_what_was_found)
 {
     fake_line[1].drop = 3;
     fake_line[1].drop_from_count = 3;
+    fake_line[0].zero_mass = 2;
     (void)outcome();
     char *text = report(0), *json = report(1), *again = report(1);
     ck_assert_str_eq(json, again);
@@ -263,6 +264,7 @@ START_TEST(reports_say_what_was_found)
     ck_assert_ptr_nonnull(strstr(json, "\"points\": 4000"));
     ck_assert_ptr_nonnull(strstr(text, "only semianalytic has the branch"));
     ck_assert_ptr_nonnull(strstr(text, "seed 20261127"));
+    ck_assert_ptr_nonnull(strstr(text, "eta_M min, zero mass"));
     free(text);
     free(json);
     free(again);
