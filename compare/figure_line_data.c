@@ -1,6 +1,7 @@
 #include "compare/figure_line_data.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "compare/format.h"
 #include "semianalytic/lines.h"
@@ -64,8 +65,27 @@ static cv_status find(sa_lines *out, const cv_params *params, const cmp_line_ran
     return status;
 }
 
-cv_status cmp_line_data(cmp_picture *p, size_t *branches, const cv_params *params,
-                        const cmp_line_range *range, size_t level, cv_message *why)
+static cv_status add_extents(cmp_extents *extents, const sa_lines *lines, cv_message *why)
+{
+    double(*more)[2] = realloc(extents->ends, (extents->count + lines->count + 1) * sizeof *more);
+    if (more == NULL)
+        return cv_fail(why, CV_FAILED, "out of memory");
+    extents->ends = more;
+    for (size_t i = 0; i < lines->count; i++) {
+        double *ends = extents->ends[extents->count++];
+        ends[0] = HUGE_VAL;
+        ends[1] = -HUGE_VAL;
+        for (size_t j = 0; j < lines->branch[i].count; j++) {
+            const double alpha = mpfr_get_d(lines->branch[i].vertex[j].alpha, MPFR_RNDN);
+            ends[0] = fmin(ends[0], alpha);
+            ends[1] = fmax(ends[1], alpha);
+        }
+    }
+    return CV_OK;
+}
+
+cv_status cmp_line_data(cmp_picture *p, const char *name, size_t *branches, cmp_extents *extents,
+                        const cv_params *params, const cmp_line_range *range, size_t level, cv_message *why)
 {
     sa_lines lines;
     cmp_damping_text damping;
@@ -74,17 +94,19 @@ cv_status cmp_line_data(cmp_picture *p, size_t *branches, const cv_params *param
         cmp_picture_doubt(p, "no lines without damping");
         return CV_OK;
     }
-    const cv_status status = find(&lines, params, range, why);
+    cv_status status = find(&lines, params, range, why);
     if (status != CV_OK)
         return status;
     if (lines.decided != CV_OK)
         cmp_picture_doubt(p, lines.reason.text);
     *branches = lines.count;
     if (lines.count > 0) {
-        fprintf(p->data, "\n\n# lines %zu\n# alpha, eta_M, q at damping %s\n", level + 1,
+        fprintf(p->data, "\n\n# %s %zu\n# alpha, eta_M, q at damping %s\n", name, level + 1,
                 cmp_format_damping(&damping, params, DIGITS));
         write_branches(p->data, &lines);
     }
+    if (extents != NULL)
+        status = add_extents(extents, &lines, why);
     sa_lines_clear(&lines);
-    return CV_OK;
+    return status;
 }

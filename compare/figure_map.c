@@ -111,7 +111,7 @@ static cv_status draw(cmp_picture *p, const cmp_figure *f, const cmp_velocities 
         cmp_figure_params(&params, f, l);
         status = write_level(p->data, &params, &g, l, why);
         if (status == CV_OK)
-            status = cmp_line_data(p, &branches, &params, r, l, why);
+            status = cmp_line_data(p, "lines", &branches, NULL, &params, r, l, why);
         write_panels(p->script, v, &params, l, branches);
     }
     cv_params_clear(&params);
