@@ -18,11 +18,10 @@ cmp_line_range cmp_line_range_of(const cmp_velocities *v, const cv_case *c)
 
 static const char *kind_text(sa_line_kind kind)
 {
-    static const char *const texts[] = {[SA_LINE_CLOSED] = "closed",
-                                        [SA_LINE_INFINITE] = "infinite mass at both ends",
-                                        [SA_LINE_ZERO_MASS] = "to zero mass",
-                                        [SA_LINE_OUT] = "leaves the velocities",
-                                        [SA_LINE_UNDECIDED] = "undecided"};
+    static const char *const texts[] = {
+        [SA_LINE_CLOSED] = "closed",          [SA_LINE_INFINITE] = "infinite mass at both ends",
+        [SA_LINE_ZERO_MASS] = "to zero mass", [SA_LINE_OUT] = "leaves the velocities",
+        [SA_LINE_UNDECIDED] = "undecided",    [SA_LINE_LIMIT] = "limit without damping"};
     return texts[kind];
 }
 

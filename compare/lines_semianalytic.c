@@ -80,7 +80,8 @@ static cmp_line_end end_of(const sa_lines *lines, const sa_branch *branch, const
     static const cmp_end_kind kinds[] = {
         [SA_END_CLOSED] = CMP_END_CLOSED,         [SA_END_ALPHA_LOW] = CMP_END_ALPHA_LOW,
         [SA_END_ALPHA_HIGH] = CMP_END_ALPHA_HIGH, [SA_END_MASS_LOW] = CMP_END_MASS_LOW,
-        [SA_END_MASS_HIGH] = CMP_END_MASS_HIGH,   [SA_END_UNDECIDED] = CMP_END_UNDECIDED};
+        [SA_END_MASS_HIGH] = CMP_END_MASS_HIGH,   [SA_END_UNDECIDED] = CMP_END_UNDECIDED,
+        [SA_END_CURVE] = CMP_END_UNDECIDED,       [SA_END_SPECIAL] = CMP_END_UNDECIDED};
     cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN, 0, 0};
     out.zero_mass = branch->kind == SA_LINE_ZERO_MASS &&
                     (end->kind == SA_END_ALPHA_HIGH || end->beyond == SA_BEYOND_ALPHA_HIGH);

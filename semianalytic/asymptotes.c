@@ -42,17 +42,45 @@ static int upper_poles(sa_point at[SA_UPPER_MAX], const sa_track *track, double 
     return found == n ? n : 0;
 }
 
+/* What a pole adds to c in the limit of no damping: real ones half of their residue's slope, with the sign of
+ * their half-plane (zeta_limit.c), the others nothing. */
+static double limit_share(const sa_point *m, const sa_slopes *slopes)
+{
+    if (cimag(m->p) != 0)
+        return 0;
+    int upper = (cimag(m->s) > 0) != (creal(slopes->residue) > 0);
+    return (upper ? 0.5 : -0.5) * creal(slopes->residue_q);
+}
+
+/* All poles at q = 0 of an undamped track, those next to the real axis on it; 0 when they are not eight. */
+static int limit_poles(sa_point at[SA_POLES_MAX], const sa_track *track, double alpha)
+{
+    const double noise = 0x1p-26;
+    double complex all[SA_POLES_MAX];
+    int count;
+    if (sa_poles_cold(all, &count, track, alpha, 0) != CV_OK || count != SA_POLES_MAX)
+        return 0;
+    for (int i = 0; i < count; ++i) {
+        if (fabs(cimag(all[i])) <= noise * cabs(all[i]))
+            all[i] = creal(all[i]);
+        if (!sa_poles_newton(&all[i], &at[i], track, alpha, 0))
+            return 0;
+    }
+    return count;
+}
+
 cv_status sa_asymptote_function(double *k, double *c, double *c_error, const sa_track *track, double alpha)
 {
-    sa_point at[SA_UPPER_MAX];
-    int n = upper_poles(at, track, alpha);
+    sa_point at[SA_POLES_MAX];
+    int n = track->undamped ? limit_poles(at, track, alpha) : upper_poles(at, track, alpha);
     double size = 0, closest = 1;
     *k = *c = 0;
     for (int i = 0; i < n; ++i) {
         sa_slopes slopes;
         sa_matrix_slopes(&slopes, &at[i], track, alpha);
-        *k -= cimag(slopes.residue);
-        *c += creal(slopes.residue_q);
+        if (cimag(at[i].p) > 0)
+            *k -= cimag(slopes.residue);
+        *c += track->undamped ? limit_share(&at[i], &slopes) : creal(slopes.residue_q);
         size += cabs(slopes.residue_q);
         for (int j = 0; j < i; ++j)
             closest = fmin(closest, cabs(at[i].p - at[j].p) / cabs(at[i].p));
@@ -244,8 +272,10 @@ static cv_status find(search *s)
     s->shortest = INFINITY;
     for (size_t i = 0; i < s->map.count; ++i)
         s->shortest = fmin(s->shortest, fmin(s->map.column[i].length_low, s->map.column[i].length_high));
+    if (s->map.undamped) /* the nearest branch point is at q = 1e-7 */
+        s->shortest = 1e-8;
     for (s->column = 0; s->column < s->map.count; ++s->column)
-        for (s->side = 0; s->side < 2 && status == CV_OK; ++s->side)
+        for (s->side = 0; s->side < 2 && status == CV_OK && !s->map.column[s->column].closed; ++s->side)
             status = scan_side(s);
     if (s->out->count > 1)
         qsort(s->out->item, s->out->count, sizeof *s->out->item, by_alpha);
@@ -260,9 +290,7 @@ cv_status sa_asymptotes_find(sa_asymptote_list *out, const cv_params *params, co
     cv_status status = sa_track_new(&s.track, params, why);
     if (status != CV_OK)
         return status;
-    if (cv_params_undamped(params))
-        status = cv_fail(why, CV_BAD_INPUT, "asymptotes need a damped track");
-    else if (cv_number_sign(alpha_min) <= 0 || cv_number_compare(alpha_min, alpha_max) >= 0)
+    if (cv_number_sign(alpha_min) <= 0 || cv_number_compare(alpha_min, alpha_max) >= 0)
         status = cv_fail(why, CV_BAD_INPUT, "the range of velocities must have 0 < alpha_min < alpha_max");
     else
         status = sa_map_build(&s.map, params, cv_number_get_double(alpha_min),

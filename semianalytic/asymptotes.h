@@ -27,7 +27,8 @@ typedef struct {
  * decided. c is sampled in the logarithm of the distance to the resonance velocities and the shear speed,
  * down to a hundredth of the damping there, and wherever it is not a parabola between samples more densely:
  * the list is complete as far as c is smooth on that scale. params: as for sa_boundary_new. CV_BAD_INPUT:
- * params are refused or undamped, or not a range. CV_FAILED: out of memory, a library failed. */
+ * params are refused, or not a range. Without damping c is that of the limit q - i0, and resonance velocities
+ * are left out. CV_FAILED: out of memory, a library failed. */
 cv_status sa_asymptotes_find(sa_asymptote_list *out, const cv_params *params, const cv_number *alpha_min,
                              const cv_number *alpha_max, int digits, cv_message *why);
 void sa_asymptotes_clear(sa_asymptote_list *list);

@@ -63,8 +63,6 @@ static cv_status store_new(sa_line_store **out, const cv_params *params, const s
     }
     set_plot(s);
     cv_status status = sa_track_new(&s->track, params, why);
-    if (status == CV_OK && cv_params_undamped(params))
-        status = cv_fail(why, CV_BAD_INPUT, "instability lines need a damped track");
     if (status == CV_OK)
         status = sa_map_build(&s->map, params, cv_number_get_double(range->alpha_min),
                               cv_number_get_double(range->alpha_max), why);

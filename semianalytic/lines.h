@@ -7,6 +7,10 @@
  * of eta_M into branches. What goes on beyond the cut is known: an asymptote (asymptotes.h), a point where
  * zeta = 0 at q > 0, another branch. Whatever does not fit together is an undecided end.
  *
+ * Without damping the lines are the limit of the damped ones for all dampings alike (transitions.h). The map
+ * has gaps then: lines end on branch curves and at special velocities. The vertical parts of the limit, at
+ * special velocities, are no lines: sa_boundary_transitions lists them.
+ *
  * Every line runs so that, with alpha to the right and eta_M upwards, N is larger by 2 on its left. All
  * quantities are dimensionless. */
 #ifndef CRITVEL_SEMIANALYTIC_LINES_H
@@ -42,7 +46,9 @@ typedef enum {
     SA_END_ALPHA_HIGH, /* the upper end */
     SA_END_MASS_LOW,   /* the lower end of the range of eta_M */
     SA_END_MASS_HIGH,  /* the upper end */
-    SA_END_UNDECIDED   /* the pieces of the line do not fit together here */
+    SA_END_UNDECIDED,  /* the pieces of the line do not fit together here */
+    SA_END_CURVE,      /* a branch curve; only without damping, as the next one */
+    SA_END_SPECIAL     /* a special velocity of the branch curves */
 } sa_end_kind;
 
 /* What the line does beyond the end of its branch. */
@@ -52,7 +58,11 @@ typedef enum {
     SA_BEYOND_ZERO,      /* eta_M grows to infinity at q > 0: zeta(zero_alpha, zero_q) = 0 */
     SA_BEYOND_BRANCH,    /* comes back into the range of eta_M as branch "number" */
     SA_BEYOND_ALPHA_LOW, /* leaves the range of alpha outside that of eta_M */
-    SA_BEYOND_ALPHA_HIGH
+    SA_BEYOND_ALPHA_HIGH,
+    SA_BEYOND_CURVE, /* ends on a branch curve: with eta_M -> 0 on the side without the waves that meet there,
+                        else it runs on along the curve, nearer than double resolves */
+    SA_BEYOND_SPECIAL /* ends in a special velocity, from which the limit of the damped lines goes on along
+                         alpha = const */
 } sa_beyond_kind;
 
 typedef struct {
@@ -69,7 +79,8 @@ typedef enum {
     SA_LINE_ZERO_MASS, /* one end leaves the range of alpha at its upper end, on the way to zero mass at
                         * infinite velocity */
     SA_LINE_OUT,       /* leaves the range of alpha at its lower end, or at the upper with both ends */
-    SA_LINE_UNDECIDED  /* an end is */
+    SA_LINE_UNDECIDED, /* an end is */
+    SA_LINE_LIMIT      /* without damping: an end is on a branch curve or at a special velocity */
 } sa_line_kind;
 
 typedef struct {
@@ -110,7 +121,7 @@ typedef struct {
 /* All branches in the range. Vertices are so many that the polyline in (alpha, log eta_M) is nearer than 1e-3
  * of the range (each axis by its own) to the line, and hardly more; one coordinate of each is exact in double
  * or at the end of the range, the others are right to the digits. CV_OK also when something is undecided.
- * CV_BAD_INPUT: params refused by cv_params_check or undamped, not a range. CV_FAILED: out of memory, a
+ * CV_BAD_INPUT: params refused by cv_params_check, not a range. CV_FAILED: out of memory, a
  * library failed; nothing is then allocated. */
 cv_status sa_lines_find(sa_lines *out, const cv_params *params, const sa_lines_range *range, int digits,
                         cv_message *why);
@@ -118,8 +129,8 @@ void sa_lines_clear(sa_lines *lines);
 
 /* N(alpha, eta_M) by the lines: 2 (those that pass alpha below eta_M towards larger alpha, minus those
  * towards smaller alpha). CV_UNDECIDED: a line passes the point within double precision, or lines are
- * undecided. CV_BAD_INPUT: alpha outside the range, eta_M not positive or above
- * SA_LINES_MASS_MAX. */
+ * undecided; always without damping, where lines end. CV_BAD_INPUT: alpha outside the range, eta_M not
+ * positive or above SA_LINES_MASS_MAX. */
 cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why);
 
 /* Puts a point on a line: one coordinate is given exactly, the other is the zero of Im zeta next to "start",

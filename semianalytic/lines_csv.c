@@ -6,22 +6,23 @@
 
 const char *sa_line_kind_text(sa_line_kind kind)
 {
-    static const char *const text[] = {"closed", "infinite mass at both ends", "to zero mass",
-                                       "leaves the range of alpha", "undecided"};
+    static const char *const text[] = {"closed",       "infinite mass at both ends",
+                                       "to zero mass", "leaves the range of alpha",
+                                       "undecided",    "limit without damping"};
     return text[kind];
 }
 
 const char *sa_end_kind_text(sa_end_kind kind)
 {
-    static const char *const text[] = {"closed",       "lowest alpha",  "highest alpha",
-                                       "lowest eta_M", "highest eta_M", "undecided"};
+    static const char *const text[] = {"closed",        "lowest alpha", "highest alpha", "lowest eta_M",
+                                       "highest eta_M", "undecided",    "branch curve",  "special velocity"};
     return text[kind];
 }
 
 const char *sa_beyond_text(sa_beyond_kind kind)
 {
-    static const char *const text[] = {"nothing", "asymptote",    "zero of zeta",
-                                       "branch",  "lowest alpha", "highest alpha"};
+    static const char *const text[] = {"nothing",      "asymptote",     "zero of zeta", "branch",
+                                       "lowest alpha", "highest alpha", "branch curve", "special velocity"};
     return text[kind];
 }
 

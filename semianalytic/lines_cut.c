@@ -128,6 +128,10 @@ static void set_outer(sa_line_end *end, const sa_line_end *of_line)
         end->beyond = SA_BEYOND_ALPHA_LOW;
     if (cut && of_line->kind == SA_END_ALPHA_HIGH)
         end->beyond = SA_BEYOND_ALPHA_HIGH;
+    if (cut && of_line->kind == SA_END_CURVE)
+        end->beyond = SA_BEYOND_CURVE;
+    if (cut && of_line->kind == SA_END_SPECIAL)
+        end->beyond = SA_BEYOND_SPECIAL;
 }
 
 static void set_beyond(row *r)
@@ -155,6 +159,8 @@ static sa_line_kind line_kind(const sa_line_store *store, size_t line)
     sa_end_kind a = store->end[line][0].kind, b = store->end[line][1].kind;
     if (a == SA_END_UNDECIDED || b == SA_END_UNDECIDED)
         return SA_LINE_UNDECIDED;
+    if (a >= SA_END_CURVE || b >= SA_END_CURVE)
+        return SA_LINE_LIMIT;
     if (a == SA_END_MASS_HIGH && b == SA_END_MASS_HIGH)
         return SA_LINE_INFINITE;
     if (a != SA_END_ALPHA_LOW && b != SA_END_ALPHA_LOW && a != b)

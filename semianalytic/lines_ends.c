@@ -65,6 +65,32 @@ static int same_velocity(double a, double b)
     return fabs(a - b) <= 1e-13 * b;
 }
 
+/* At the rim of the gap of a branch curve? */
+static int at_curve(const sa_line_store *store, const sa_line_sample *s)
+{
+    const double slack = 0.1;
+    sa_map_node node;
+    if (sa_map_node_of(&node, &store->map, s->alpha) != CV_OK)
+        return 0;
+    for (int i = 1; i < node.count - 1; ++i)
+        if (node.gap[i] > 0 && fabs(fabs(s->q - node.q[i]) - node.gap[i]) < slack * node.gap[i])
+            return 1;
+    return 0;
+}
+
+/* At an end of a closed column? */
+static int at_special(const sa_line_store *store, const sa_line_sample *s)
+{
+    const double slack = 0.1;
+    for (size_t i = 0; i < store->map.count; ++i) {
+        const sa_column *c = &store->map.column[i];
+        double width = c->alpha_high - c->alpha_low;
+        if (c->closed && s->alpha > c->alpha_low - slack * width && s->alpha < c->alpha_high + slack * width)
+            return 1;
+    }
+    return 0;
+}
+
 /* kind, and beyond but for asymptotes */
 static void classify(sa_line_end *end, const sa_line_store *store, const sa_line_sample *s)
 {
@@ -74,6 +100,10 @@ static void classify(sa_line_end *end, const sa_line_store *store, const sa_line
         end->kind = SA_END_ALPHA_LOW;
     else if (same_velocity(s->alpha, store->map.curves.alpha_max))
         end->kind = SA_END_ALPHA_HIGH;
+    else if (store->map.undamped && at_special(store, s))
+        end->kind = SA_END_SPECIAL;
+    else if (store->map.undamped && at_curve(store, s))
+        end->kind = SA_END_CURVE;
     else if ((at_floor || at_zero(s)) && !near_zero(end, store, s) && at_floor)
         end->kind = SA_END_MASS_HIGH;
 }

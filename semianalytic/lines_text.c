@@ -70,6 +70,12 @@ static int write_beyond(FILE *out, const sa_lines *lines, const sa_line_end *end
         done = fprintf(out, "%17sthen out of the range of alpha at its %s end\n", "",
                        end->beyond == SA_BEYOND_ALPHA_LOW ? "lower" : "upper") > 0;
         break;
+    case SA_BEYOND_CURVE:
+        done = fprintf(out, "%17sthen to a branch curve\n", "") > 0;
+        break;
+    case SA_BEYOND_SPECIAL:
+        done = fprintf(out, "%17sthen to a special velocity\n", "") > 0;
+        break;
     default:
         break;
     }

@@ -210,8 +210,16 @@ static void reverse(sa_line_sample *item, size_t count)
     }
 }
 
+/* Number of the boundary of a column; a closed column (map.h) is so narrow that both of its are one. */
+static long boundary(const sa_map *map, size_t column, int side_u)
+{
+    size_t i = column + (size_t)side_u;
+    return (long)(i < map->count && map->column[i].closed ? i + 1 : i);
+}
+
 /* Along the boundary of two columns strips differ: there the coordinate is q. */
-static cv_status column_edge(sa_line_edge *edge, sa_field *field, const sa_segment *s, double q)
+static cv_status column_edge(sa_line_edge *edge, const sa_map *map, sa_field *field, const sa_segment *s,
+                             double q)
 {
     sa_map_point low, high;
     const sa_map_node *node = sa_field_node(field, 0);
@@ -220,14 +228,22 @@ static cv_status column_edge(sa_line_edge *edge, sa_field *field, const sa_segme
     sa_map_point_at(&low, node, s->strip, s->side_t, edge->low);
     sa_map_point_at(&high, node, s->strip, s->side_t, edge->high);
     *edge = (sa_line_edge){.kind = SA_EDGE_COLUMN,
-                           .id = {(long)s->column + s->side_u},
+                           .id = {boundary(map, s->column, s->side_u)},
                            .low = fmin(low.q, high.q),
                            .high = fmax(low.q, high.q),
                            .at = q};
     return CV_OK;
 }
 
-static cv_status make_edge(sa_line_edge *edge, sa_field *field, const sa_segment *s, int end)
+/* No line goes on beyond the gap of a curve. */
+static int at_gap(const sa_line_edge *edge, const sa_map *map, sa_field *field, const sa_segment *s, double u)
+{
+    const sa_map_node *node = map->undamped && edge->fixed == 0 ? sa_field_node(field, u) : NULL;
+    return node != NULL && node->gap[s->strip + s->side_t] > 0;
+}
+
+static cv_status make_edge(sa_line_edge *edge, const sa_map *map, sa_field *field, const sa_segment *s,
+                           int end)
 {
     const sa_sample *at = end == 0 ? &s->from : &s->to;
     int along_t = s->edge[end].along;
@@ -238,7 +254,9 @@ static cv_status make_edge(sa_line_edge *edge, sa_field *field, const sa_segment
                            .high = s->edge[end].high,
                            .at = along_t ? at->t : at->u};
     if (along_t && edge->fixed == 0)
-        return column_edge(edge, field, s, at->q);
+        return column_edge(edge, map, field, s, at->q);
+    if (!along_t && at_gap(edge, map, field, s, at->u))
+        edge->kind = SA_EDGE_NONE;
     if (edge->fixed > 1 - SA_SAME_EDGE) /* the middle of a column or of a strip */
         edge->id[along_t ? 1 : 3] = 0;
     if (!along_t && edge->fixed == 0 && s->side_t == 1) {
@@ -291,9 +309,9 @@ static cv_status on_segment(void *context, sa_field *field, const sa_segment *se
     sa_line_piece piece = {.first = trace->samples.count};
     station from = {0, segment->from}, to = {1, segment->to};
     int forward = in_direction(segment);
-    cv_status status = make_edge(&piece.edge[!forward], field, segment, 0);
+    cv_status status = make_edge(&piece.edge[!forward], trace->map, field, segment, 0);
     if (status == CV_OK)
-        status = make_edge(&piece.edge[forward], field, segment, 1);
+        status = make_edge(&piece.edge[forward], trace->map, field, segment, 1);
     if (status == CV_OK)
         status = append(&w, &segment->from, 0);
     if (status == CV_OK)
