@@ -29,9 +29,17 @@ static double limited(double slope, double limit)
  * nothing of interest is nearer. Falls to zero, with its slope, as the damping grows. */
 static void place_gap(sa_map_node *node, int i, const sa_map *map, double damping, double damping_slope)
 {
-    double resolved = (map->undamped ? 2e-12 : 2e-13) * (1 + node->q[i]), x = damping / resolved;
-    node->gap[i] = x < 1 ? resolved / 2 * (1 - x * x) * (1 - x * x) : 0;
-    node->gap_slope[i] = x < 1 ? -2 * x * (1 - x * x) * damping_slope : 0;
+    const double relative = map->undamped ? 2e-12 : 2e-13;
+    double resolved = relative * (1 + node->q[i]), slope = relative * limited(node->slope[i], 1e5);
+    double x = damping / resolved, y = 1 - x * x;
+    node->gap[i] = x < 1 ? resolved / 2 * y * y : 0;
+    node->gap_slope[i] = x < 1 ? slope / 2 * y * y - 2 * x * y * (damping_slope - x * slope) : 0;
+}
+
+/* sa_map_grading is linear. */
+static double grading_slope(double damping_slope, double slope)
+{
+    return sa_map_grading(damping_slope, limited(slope, 1e5)) - sa_map_grading(0, 0);
 }
 
 static cv_status place_arc(sa_map_node *node, int i, const sa_map *map, int number)
@@ -51,7 +59,7 @@ static cv_status place_arc(sa_map_node *node, int i, const sa_map *map, int numb
     node->length[i] = sa_map_grading(damping, node->q[i]);
     /* at a cusp the damping has a slope like 1 / sqrt(distance) that changes nothing */
     damping_slope = limited(damping_slope, 1e5 * node->length[i]);
-    node->length_slope[i] = 0.1 * damping_slope;
+    node->length_slope[i] = grading_slope(damping_slope, node->slope[i]);
     place_gap(node, i, map, damping, damping_slope);
     return CV_OK;
 }
@@ -63,7 +71,7 @@ static void place_ghost(sa_map_node *node, int i, const sa_ghost *ghost)
     node->q[i] = fabs(q);
     node->slope[i] = q < 0 ? -ghost->slope : ghost->slope;
     node->length[i] = sa_map_grading(ghost->damping, node->q[i]) + off;
-    node->length_slope[i] = beyond == 0 ? 0 : 1.5 * off / beyond;
+    node->length_slope[i] = grading_slope(0, node->slope[i]) + (beyond == 0 ? 0 : 1.5 * off / beyond);
 }
 
 /* A curve is graded as finely as any other that it meets: its length becomes the harmonic sum of (length +
