@@ -144,16 +144,14 @@ static void iterate(dg_mp_roots *roots, const dg_mp_operator *op)
 {
     const int p = (int)roots->precision, near = roots->count - roots->far;
     const double small = ldexp(1, -1 - (int)fmax(p / 3 + 1, (p - 48) / 2)), far_small = ldexp(1, -p / 2 - 2);
-    for (int sweep = 0; sweep < 40 + p / 2; sweep++) {
-        int settled = 1;
-        for (int i = 0; i < near; i++)
-            if (!(update(roots, op, i) < small))
-                settled = 0;
-        if (roots->far && !(update_far(roots, op) < far_small))
-            settled = 0;
-        if (settled)
-            return;
-    }
+    int moving = roots->count, settled[DG_DEGREE] = {0};
+    for (int sweep = 0; sweep < 40 + p / 2 && moving > 0; sweep++)
+        for (int i = 0; i < roots->count; i++) {
+            if (settled[i])
+                continue;
+            settled[i] = i < near ? update(roots, op, i) < small : update_far(roots, op) < far_small;
+            moving -= settled[i];
+        }
 }
 
 /* Imaginary parts below the square root of a unit, relative to the distance of the other roots, are rounding,

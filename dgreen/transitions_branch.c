@@ -88,7 +88,7 @@ static cv_status found(const dg_sample *low, const dg_sample *high, void *contex
     const double special = dg_special_distance(b->sweep->probe.branches, m.alpha);
     const double reach = fmin(fmax(special, DBL_EPSILON * m.alpha), fabs(m.at.x / m.at.dx));
     const int change = (rises ? 2 : -2) * m.at.direction;
-    const dg_find find = {m.alpha, m.at.q, m.at.dq, m.at.dx, m.at.scale, reach, change};
+    const dg_find find = {m.alpha, m.at.q, m.at.dq, m.at.dx, m.at.scale, reach, change, 0};
     return dg_sweep_add(b->sweep, b->mass, &find);
 }
 

@@ -155,6 +155,16 @@ static int dips_matter(const dg_sweep *s, const outlook *o)
     return 0;
 }
 
+static cv_status follow_pairs(dg_sweep *s, const alignment *g)
+{
+    const dg_curve *left = g->left, *right = g->right;
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < left->crossing_count && status == CV_OK; i++)
+        if (g->right_of[i] != NONE)
+            status = dg_branch_scan(s, left, &left->crossings[i], right, &right->crossings[g->right_of[i]]);
+    return status;
+}
+
 /* One attempt without cutting. CV_UNDECIDED: cut. */
 static cv_status attempt(dg_sweep *s, const dg_curve *left, const dg_curve *right)
 {
@@ -167,11 +177,7 @@ static cv_status attempt(dg_sweep *s, const dg_curve *left, const dg_curve *righ
             return CV_UNDECIDED;
     if (dips_matter(s, &one) || dips_matter(s, &other))
         return CV_UNDECIDED;
-    cv_status status = CV_OK;
-    for (size_t i = 0; i < left->crossing_count && status == CV_OK; i++)
-        if (g.right_of[i] != NONE)
-            status = dg_branch_scan(s, left, &left->crossings[i], right, &right->crossings[g.right_of[i]]);
-    return status;
+    return follow_pairs(s, &g);
 }
 
 /* Marks the mass ratios whose count changes without an explanation; returns whether there are any. */
@@ -209,16 +215,69 @@ static cv_status cut(dg_sweep *s, const dg_curve *left, const dg_curve *right, i
     return status;
 }
 
-/* Which mass ratios are touched by what could not be resolved */
-static void give_up(dg_sweep *s, const dg_curve *left, const dg_curve *right)
+/* Adds the transitions of all mass ratios with 1/eta_M between two neighbouring crossings of this end that
+ * have no partner, nor crossings in their place, at the other: they meet at a fold on the way, and as the way
+ * is as short as doubles are apart, one of them passes 1/eta_M once before. */
+static cv_status add_folds(dg_sweep *s, const outlook *o)
+{
+    cv_status status = CV_OK;
+    for (size_t i = 0; i + 1 < o->here->crossing_count && status == CV_OK; i++) {
+        const dg_crossing *a = &o->here->crossings[i], *b = a + 1, *upper = a->x > b->x ? a : b;
+        if (o->partner[i] != NONE || o->partner[i + 1] != NONE || a->direction == b->direction)
+            continue;
+        const double reach = fmax(dg_special_distance(s->probe.branches, o->here->at.alpha), fabs(o->way));
+        for (size_t k = 0; k < s->mass_count && status == CV_OK; k++) {
+            const double part = (s->masses[k].x - a->x) / (b->x - a->x);
+            const dg_find find = {.alpha = o->here->at.alpha,
+                                  .q = a->q + part * (b->q - a->q),
+                                  .dq = a->dq,
+                                  .dx = a->dx,
+                                  .scale = fmin(a->scale, b->scale),
+                                  .reach = reach,
+                                  .change = (o->way > 0 ? -2 : 2) * upper->direction,
+                                  .across = 1};
+            if (part > 0 && part < 1)
+                status = dg_sweep_add(s, k, &find);
+        }
+        i++;
+    }
+    return status;
+}
+
+/* Follows one pair between neighbouring doubles; where it cannot be followed, 1/eta_M must be far. */
+static cv_status conclude_pair(dg_sweep *s, const alignment *g, size_t i)
+{
+    static const double NEAR = 0.01;
+    const dg_crossing *a = &g->left->crossings[i], *b = &g->right->crossings[g->right_of[i]];
+    const cv_status status = dg_branch_scan(s, g->left, a, g->right, b);
+    if (status != CV_UNDECIDED)
+        return status;
+    const double least = fmin(a->x, b->x) * (1 - NEAR), most = fmax(a->x, b->x) * (1 + NEAR);
+    for (size_t k = 0; k < s->mass_count; k++)
+        if (s->masses[k].x > least && s->masses[k].x < most)
+            dg_sweep_doubt(&s->masses[k], "a crossing that cannot be followed", g->left->at.alpha,
+                           g->right->at.alpha);
+    return CV_OK;
+}
+
+/* Between neighbouring doubles: what is paired is followed, what is not has folds; what that does not explain
+ * is in doubt. */
+static cv_status conclude(dg_sweep *s, const dg_curve *left, const dg_curve *right, const size_t *before)
 {
     alignment g = {.left = left, .right = right};
-    const int aligned = align(&g);
-    const outlook one = from_left(&g), other = from_right(&g);
-    for (size_t k = 0; k < s->mass_count; k++)
-        if (!aligned || unpaired_matter(s, &one, s->masses[k].x) ||
-            unpaired_matter(s, &other, s->masses[k].x))
-            dg_sweep_doubt(&s->masses[k], "crossings that cannot be paired", left->at.alpha, right->at.alpha);
+    cv_status status = CV_OK;
+    if (align(&g)) {
+        const outlook one = from_left(&g), other = from_right(&g);
+        for (size_t i = 0; i < left->crossing_count && status == CV_OK; i++)
+            if (g.right_of[i] != NONE)
+                status = conclude_pair(s, &g, i);
+        if (status == CV_OK)
+            status = add_folds(s, &one);
+        if (status == CV_OK)
+            status = add_folds(s, &other);
+    }
+    unexplained(s, left, right, before, 1);
+    return status;
 }
 
 static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right, int depth)
@@ -230,15 +289,11 @@ static cv_status search(dg_sweep *s, const dg_curve *left, const dg_curve *right
     for (size_t k = 0; k < s->mass_count; k++)
         before[k] = s->masses[k].count;
     cv_status status = attempt(s, left, right);
-    if (status == CV_OK && unexplained(s, left, right, before, last) && !last)
+    if (status == CV_OK && unexplained(s, left, right, before, 0))
         status = CV_UNDECIDED;
-    if (status == CV_UNDECIDED && last) {
-        give_up(s, left, right);
-        unexplained(s, left, right, before, 1);
-        status = CV_OK;
-    } else if (status == CV_UNDECIDED) {
+    if (status == CV_UNDECIDED) {
         dg_sweep_forget(s, before);
-        status = cut(s, left, right, depth);
+        status = last ? conclude(s, left, right, before) : cut(s, left, right, depth);
     }
     free(before);
     return status;

@@ -21,12 +21,14 @@ typedef struct {
     mpfr_prec_t bits, most_bits; /* of evaluations; grows where signs stay open */
     mpc_t zeta;
     mpfr_t re_error, im_error, target; /* target = 1/eta_M */
-    mpfr_srcptr alpha;                 /* of the inner search */
-    int known;                         /* inner roots found so far, at most two are kept */
-    mpfr_t alpha_known[2], q_known[2]; /* before the first: what the double search says */
-    mpfr_t q_centre, alpha_step;
-    dg_bracket inner; /* in q: value = Im zeta, aside = Re zeta - 1/eta_M, and its bounds */
-    dg_bracket outer; /* in alpha: value = Re zeta - 1/eta_M at the inner root, aside = q and its bounds */
+    /* The outer variable is alpha and the inner one q; across a fold the other way round. */
+    double slope, inner_scale, outer_scale; /* d inner/d outer; distances over which zeta changes */
+    mpfr_srcptr at_outer;                   /* of the inner search */
+    int known;                              /* inner roots found so far, at most two are kept */
+    mpfr_t outer_known[2], inner_known[2];  /* before the first: what the double search says */
+    mpfr_t centre, step;
+    dg_bracket inner; /* value = Im zeta, aside = Re zeta - 1/eta_M, and its bounds */
+    dg_bracket outer; /* value = Re zeta - 1/eta_M at the inner root, aside = inner variable and its bounds */
 } refiner;
 
 static void set_target(refiner *r)
@@ -37,11 +39,11 @@ static void set_target(refiner *r)
 }
 
 /* zeta with a certified sign of its imaginary part */
-static cv_status evaluate(refiner *r, mpfr_srcptr q)
+static cv_status evaluate(refiner *r, mpfr_srcptr inner)
 {
+    mpfr_srcptr alpha = r->find->across ? inner : r->at_outer, q = r->find->across ? r->at_outer : inner;
     for (; r->bits <= r->most_bits; r->bits += MORE_BITS, set_target(r)) {
-        const cv_status status =
-            dg_zeta_mp(r->zeta, r->re_error, r->im_error, r->track, r->alpha, q, r->bits);
+        const cv_status status = dg_zeta_mp(r->zeta, r->re_error, r->im_error, r->track, alpha, q, r->bits);
         r->effort->evaluations++;
         r->effort->above_double++;
         if (r->bits > r->effort->largest_precision)
@@ -54,7 +56,7 @@ static cv_status evaluate(refiner *r, mpfr_srcptr q)
     return CV_UNDECIDED;
 }
 
-/* Inner function: Im zeta at the frequency e->at. */
+/* Inner function: Im zeta at e->at. */
 static cv_status imaginary_part(dg_end *e, void *context)
 {
     refiner *r = context;
@@ -81,57 +83,55 @@ static int excess_sign(const refiner *r)
     return mpfr_sgn(a->aside_high) < 0 && mpfr_sgn(b->aside_high) < 0 ? -1 : 0;
 }
 
-/* r->q_centre = where the inner root is expected: the line through what is known */
+/* r->centre = where the inner root is expected: the line through what is known */
 static void expect(refiner *r)
 {
-    mpfr_sub(r->q_centre, r->alpha, r->alpha_known[0], RND);
-    mpfr_sub(r->alpha_step, r->alpha_known[1], r->alpha_known[0], RND);
-    if (r->known < 2 || mpfr_zero_p(r->alpha_step)) {
-        mpfr_mul_d(r->q_centre, r->q_centre, r->find->dq, RND);
+    mpfr_sub(r->centre, r->at_outer, r->outer_known[0], RND);
+    mpfr_sub(r->step, r->outer_known[1], r->outer_known[0], RND);
+    if (r->known < 2 || mpfr_zero_p(r->step)) {
+        mpfr_mul_d(r->centre, r->centre, r->slope, RND);
     } else {
-        mpfr_div(r->q_centre, r->q_centre, r->alpha_step, RND);
-        mpfr_sub(r->alpha_step, r->q_known[1], r->q_known[0], RND);
-        mpfr_mul(r->q_centre, r->q_centre, r->alpha_step, RND);
+        mpfr_div(r->centre, r->centre, r->step, RND);
+        mpfr_sub(r->step, r->inner_known[1], r->inner_known[0], RND);
+        mpfr_mul(r->centre, r->centre, r->step, RND);
     }
-    mpfr_add(r->q_centre, r->q_centre, r->q_known[0], RND);
+    mpfr_add(r->centre, r->centre, r->inner_known[0], RND);
 }
 
 /* How wrong that may be */
 static double inner_width(const refiner *r)
 {
-    const dg_find *f = r->find;
     mpfr_t step;
     double distance[2];
     mpfr_init2(step, 53);
     for (int i = 0; i < 2; i++) {
-        mpfr_sub(step, r->alpha, r->alpha_known[i], RND);
+        mpfr_sub(step, r->at_outer, r->outer_known[i], RND);
         distance[i] = fabs(mpfr_get_d(step, RND));
     }
     mpfr_clear(step);
-    double error = SLOPE_ERROR * fabs(f->dq) * distance[0];
+    double error = SLOPE_ERROR * fabs(r->slope) * distance[0];
     if (r->known == 2)
-        error = fabs(f->dq) * distance[0] * distance[1] / f->reach;
-    return fmin(fmax(INNER_WIDTH[r->known] * f->scale, error), LAST_WIDTH * f->scale);
+        error = fabs(r->slope) * distance[0] * distance[1] / r->outer_scale;
+    return fmin(fmax(INNER_WIDTH[r->known] * r->inner_scale, error), LAST_WIDTH * r->inner_scale);
 }
 
 static void remember(refiner *r)
 {
-    mpfr_swap(r->alpha_known[0], r->alpha_known[1]);
-    mpfr_swap(r->q_known[0], r->q_known[1]);
-    mpfr_set(r->alpha_known[0], r->alpha, RND);
-    mpfr_add(r->q_known[0], r->inner.low.at, r->inner.high.at, RND);
-    mpfr_div_2ui(r->q_known[0], r->q_known[0], 1, RND);
+    mpfr_swap(r->outer_known[0], r->outer_known[1]);
+    mpfr_swap(r->inner_known[0], r->inner_known[1]);
+    mpfr_set(r->outer_known[0], r->at_outer, RND);
+    mpfr_add(r->inner_known[0], r->inner.low.at, r->inner.high.at, RND);
+    mpfr_div_2ui(r->inner_known[0], r->inner_known[0], 1, RND);
     r->known += r->known < 2;
 }
 
-/* Outer function: Re zeta - 1/eta_M at the velocity e->at and the frequency with Im zeta = 0. */
+/* Outer function: Re zeta - 1/eta_M at e->at and the inner variable with Im zeta = 0. */
 static cv_status excess(dg_end *e, void *context)
 {
     refiner *r = context;
-    const double scale = r->find->scale;
-    r->alpha = e->at;
+    r->at_outer = e->at;
     expect(r);
-    cv_status status = dg_bracket_open(&r->inner, r->q_centre, inner_width(r), LAST_WIDTH * scale);
+    cv_status status = dg_bracket_open(&r->inner, r->centre, inner_width(r), LAST_WIDTH * r->inner_scale);
     e->sign = 0;
     for (int i = 0; i < INNER_ROUNDS && status == CV_OK && e->sign == 0; i++) {
         status = dg_bracket_close(&r->inner);
@@ -151,6 +151,23 @@ static cv_status excess(dg_end *e, void *context)
     return CV_OK;
 }
 
+/* Which variable is which, where the search begins, and how narrow the brackets must become */
+static void set_variables(refiner *r, int digits)
+{
+    const dg_find *f = r->find;
+    const double outer = f->across ? f->q : f->alpha, inner = f->across ? f->alpha : f->q;
+    r->slope = f->across ? 1 / f->dq : f->dq;
+    r->inner_scale = r->inner.scale = f->across ? f->reach : f->scale;
+    r->outer_scale = r->outer.scale = f->across ? f->scale : f->reach;
+    mpfr_set_d(r->outer_known[0], outer, RND);
+    mpfr_set_d(r->inner_known[0], inner, RND);
+    mpfr_set_ui(r->outer.tolerance, 10, RND);
+    mpfr_pow_si(r->outer.tolerance, r->outer.tolerance, -digits, RND);
+    mpfr_div_ui(r->outer.tolerance, r->outer.tolerance, 4, RND);
+    mpfr_mul_d(r->inner.tolerance, r->outer.tolerance, 1e-8 * inner, RND);
+    mpfr_mul_d(r->outer.tolerance, r->outer.tolerance, fmin(outer, inner / fmax(fabs(r->slope), 1)), RND);
+}
+
 static void refiner_init(refiner *r, const dg_track *track, dg_effort *effort, const dg_find *find,
                          const cv_number *mass_ratio, int digits)
 {
@@ -162,22 +179,13 @@ static void refiner_init(refiner *r, const dg_track *track, dg_effort *effort, c
     r->bits = 64 * ((mpfr_prec_t)needed / 64 + 1) - 1;
     r->most_bits = r->bits + MAX_EXTRA_BITS;
     mpc_init2(r->zeta, r->bits);
-    mpfr_inits2(r->bits, r->re_error, r->im_error, r->target, r->q_centre, r->alpha_step, r->alpha_known[0],
-                r->alpha_known[1], r->q_known[0], r->q_known[1], (mpfr_ptr)NULL);
+    mpfr_inits2(r->bits, r->re_error, r->im_error, r->target, r->centre, r->step, r->outer_known[0],
+                r->outer_known[1], r->inner_known[0], r->inner_known[1], (mpfr_ptr)NULL);
     set_target(r);
     r->known = 0;
-    mpfr_set_d(r->alpha_known[0], find->alpha, RND);
-    mpfr_set_d(r->q_known[0], find->q, RND);
     dg_bracket_init(&r->inner, r->bits, imaginary_part, r);
     dg_bracket_init(&r->outer, r->bits, excess, r);
-    r->inner.scale = find->scale;
-    r->outer.scale = find->reach;
-    mpfr_set_ui(r->outer.tolerance, 10, RND);
-    mpfr_pow_si(r->outer.tolerance, r->outer.tolerance, -digits, RND);
-    mpfr_div_ui(r->outer.tolerance, r->outer.tolerance, 4, RND);
-    mpfr_mul_d(r->inner.tolerance, r->outer.tolerance, 1e-8 * find->q, RND);
-    const double least = fmin(find->alpha, find->q / fmax(fabs(find->dq), 1));
-    mpfr_mul_d(r->outer.tolerance, r->outer.tolerance, least, RND);
+    set_variables(r, digits);
 }
 
 static void refiner_clear(refiner *r)
@@ -185,8 +193,8 @@ static void refiner_clear(refiner *r)
     dg_bracket_clear(&r->inner);
     dg_bracket_clear(&r->outer);
     mpc_clear(r->zeta);
-    mpfr_clears(r->re_error, r->im_error, r->target, r->q_centre, r->alpha_step, r->alpha_known[0],
-                r->alpha_known[1], r->q_known[0], r->q_known[1], (mpfr_ptr)NULL);
+    mpfr_clears(r->re_error, r->im_error, r->target, r->centre, r->step, r->outer_known[0], r->outer_known[1],
+                r->inner_known[0], r->inner_known[1], (mpfr_ptr)NULL);
 }
 
 /* Middle of [low, high] and its half-width, rounded up to cover the rounding of the middle. */
@@ -203,14 +211,17 @@ static double middle(mpfr_t out, mpfr_srcptr low, mpfr_srcptr high)
     return error;
 }
 
-/* The bracket of alpha, and the hull of the frequencies at its two ends. */
+/* The bracket of the outer variable, and the hull of the inner ones at its two ends. */
 static void report(dg_transition *out, refiner *r)
 {
     dg_bracket *o = &r->outer;
-    out->alpha_error = middle(out->alpha, o->low.at, o->high.at);
+    const int across = r->find->across;
     mpfr_min(o->trial.aside_low, o->low.aside_low, o->high.aside_low, RND);
     mpfr_max(o->trial.aside_high, o->low.aside_high, o->high.aside_high, RND);
-    out->frequency_error = middle(out->frequency, o->trial.aside_low, o->trial.aside_high);
+    *(across ? &out->frequency_error : &out->alpha_error) =
+        middle(across ? out->frequency : out->alpha, o->low.at, o->high.at);
+    *(across ? &out->alpha_error : &out->frequency_error) =
+        middle(across ? out->alpha : out->frequency, o->trial.aside_low, o->trial.aside_high);
 }
 
 cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track, const dg_find *find,
@@ -218,8 +229,8 @@ cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track
 {
     refiner r;
     refiner_init(&r, track, effort, find, mass_ratio, digits);
-    const double unit = r.outer.scale;
-    mpfr_set_d(r.outer.step, find->alpha, RND);
+    const double unit = r.outer_scale;
+    mpfr_set(r.outer.step, r.outer_known[0], RND);
     cv_status status = dg_bracket_open(&r.outer, r.outer.step, FIRST_WIDTH * unit, LAST_WIDTH * unit);
     if (status == CV_OK)
         status = dg_bracket_close(&r.outer);
@@ -228,7 +239,7 @@ cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track
     } else {
         mpfr_set_d(out->alpha, find->alpha, RND);
         mpfr_set_d(out->frequency, find->q, RND);
-        out->alpha_error = LAST_WIDTH * unit;
+        out->alpha_error = LAST_WIDTH * find->reach;
         out->frequency_error = LAST_WIDTH * find->scale;
     }
     out->decided = status;

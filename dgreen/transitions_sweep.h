@@ -12,6 +12,8 @@ typedef struct {
     double scale;  /* distance in q over which zeta changes */
     double reach;  /* distance in alpha over which x changes */
     int change;    /* of the number of unstable roots as alpha grows: +2 or -2 */
+    int across; /* 1: where two crossings are born or die at a fold nearer than doubles are in alpha: alpha as
+                   a function of q is then the simple one of the two */
 } dg_find;
 
 /* What is known of one mass ratio. */
