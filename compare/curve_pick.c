@@ -6,6 +6,7 @@
 #include "dgreen/sampler.h"
 
 static const double APART = 1.5, AWAY = 1.2, BEYOND = 10;
+enum { VELOCITIES = 400 }; /* at most, from the lowest on */
 
 /* A crossing by its mass ratio, with the unstable roots of a little lighter and a little heavier masses. */
 typedef struct {
@@ -121,10 +122,10 @@ static cv_status look_through(cmp_curve_pick *out, search *s, const cv_casefile 
         return status;
     if (alpha > 0)
         status = look_at(out, s, &sampler, alpha, why);
-    else /* k / 20, not k * 0.05: the double nearest to the decimal */
-        for (double k = ceil(low * s->fineness);
-             k / s->fineness <= high && s->apart < APART && status == CV_OK; k++)
-            status = look_at(out, s, &sampler, k / s->fineness, why);
+    double k = ceil(low * s->fineness); /* k / 20, not k * 0.05: the double nearest to the decimal */
+    for (int i = 0;
+         alpha <= 0 && i < VELOCITIES && k / s->fineness <= high && s->apart < APART && status == CV_OK; i++)
+        status = look_at(out, s, &sampler, k++ / s->fineness, why);
     dg_sampler_clear(&sampler);
     return status;
 }

@@ -94,6 +94,10 @@ cv_status cmp_line_data(cmp_picture *p, const char *name, size_t *branches, cmp_
         return CV_OK;
     }
     cv_status status = find(&lines, params, range, why);
+    if (status == CV_BAD_INPUT || status == CV_UNDECIDED) {
+        cmp_picture_doubt(p, why->text);
+        return CV_OK;
+    }
     if (status != CV_OK)
         return status;
     if (lines.decided != CV_OK)

@@ -59,8 +59,8 @@ void cmp_mass_range(double *lightest, double *heaviest, const cv_case *c)
         high = fmax(high, cv_number_get_double(&c->mass_ratios[i]));
     }
     const double missing = fmax(1, sqrt(1000 * low / high));
-    *lightest = low / missing;
-    *heaviest = high * missing;
+    *lightest = fmin(fmax(low / missing, 1e-10), 1e7);
+    *heaviest = fmin(fmax(high * missing, 1e-7), 1e10);
 }
 
 void cmp_mass_tics(FILE *script, double lightest, double heaviest)

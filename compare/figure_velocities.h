@@ -25,7 +25,7 @@ double cmp_velocities_end(const cmp_velocities *v);
 /* Where it begins: at 0 when the range goes down far enough. */
 double cmp_velocities_begin(const cmp_velocities *v, double end);
 
-/* The mass ratios a picture shows: those of the case, at least three decades. */
+/* The mass ratios a picture shows: those of the case, at least three decades, between 1e-10 and 1e10. */
 void cmp_mass_range(double *lightest, double *heaviest, const cv_case *c);
 
 /* Tics at powers of ten for a y axis that holds log10 of the mass ratio. */
