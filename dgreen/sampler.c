@@ -5,29 +5,12 @@
 
 #include "dgreen/winding.h"
 
-/* The track, with as good as no damping in place of none where the undamped one may be silent */
-static cv_status make_track(dg_sampler *s, const cv_params *params, cv_message *why)
-{
-    s->undamped = cv_params_undamped(params);
-    if (!s->undamped || cv_number_sign(&params->eta_s) == 0)
-        return dg_track_new(&s->track, params, why);
-    cv_params limit;
-    cv_params_init(&limit);
-    cv_params_set(&limit, params);
-    cv_status status = cv_number_parse(&limit.eta_p, "1e-30", why);
-    cv_number_set(&limit.eta_b, &limit.eta_p);
-    cv_number_set(&limit.eta_f, &limit.eta_p);
-    if (status == CV_OK)
-        status = dg_track_new(&s->track, &limit, why);
-    cv_params_clear(&limit);
-    return status;
-}
-
 cv_status dg_sampler_init(dg_sampler *s, const cv_params *params, double alpha_min, double alpha_max,
                           cv_message *why)
 {
     memset(s, 0, sizeof *s);
-    cv_status status = make_track(s, params, why);
+    s->undamped = cv_params_undamped(params);
+    cv_status status = dg_track_new(&s->track, params, why);
     if (status == CV_OK)
         status = dg_follow_new(&s->follow, why);
     if (status == CV_OK)

@@ -16,10 +16,10 @@ typedef struct {
 /* 0 < alpha_min <= alpha_max; params must have passed cv_params_check. One thread at a time. On failure
  * nothing is allocated.
  *
- * Damping may be zero: then all is the limit of equal vanishing damping ratios. Where waves are radiated that
- * is the limit qbar -> i q + 0 of the undamped track. With shear stiffness (eta_s > 0) there are velocities
- * and frequencies without radiation, Im zeta is zero and the sign of its derivative with respect to damping
- * counts; then track has damping ratios of 1e-30, so that zeta is the limit to all digits of a double. */
+ * Damping may be zero: then all is the limit qbar -> i q + 0 of the undamped track, which is that of
+ * vanishing damping ratios. For alpha > 0 it always has waves: the sleepers swing between rail and ballast at
+ * rest, a flat branch of the dispersion relation that meets every line omega = +-(q - alpha p). So Im zeta is
+ * zero only at crossings, with shear stiffness (eta_s > 0) too, though it may be tiny. */
 cv_status dg_sampler_init(dg_sampler *s, const cv_params *params, double alpha_min, double alpha_max,
                           cv_message *why);
 void dg_sampler_clear(dg_sampler *s);
