@@ -4,7 +4,7 @@
 
 #include "dgreen/lines_graph.h"
 
-enum { MAX_PAIRS = 48, MAX_TRIES = 80, MIN_STEPS = 40, WIDEN = 6 };
+enum { MAX_PAIRS = 48, MAX_TRIES = 80, MIN_STEPS = 24, WIDEN = 6 };
 /* Half-width of the search for the minimum, in units of half the distance of the pair, and a least one */
 static const double WINDOW = 1.6, LEAST_WINDOW = 0.02;
 /* The search ends when the velocity is known this well (relative) and the pair is this close in log x, plot
@@ -56,42 +56,44 @@ static cv_status find_outside(dg_node *n, double *at, const turn *t, double step
     return CV_UNDECIDED;
 }
 
-/* The least |Im zeta| in (low, high), golden section; *inside: Im zeta has the sign inside the pair there,
- * certified, and the search ended. */
-static cv_status minimum(dg_node *n, int *inside, const turn *t, double low, double high)
+/* The node at abscissa "at", with a certain sign where double does not tell it. */
+static cv_status probe(dg_node *n, const turn *t, double at)
+{
+    int certain;
+    const double q = frequency(t, at);
+    const cv_status status = dg_probe_value(n, &certain, &t->g->probe, t->g->station.alpha, q);
+    return status == CV_OK && !certain ? dg_probe_at(n, &t->g->probe, t->g->station.alpha, q) : status;
+}
+
+/* The least Im zeta, with the sign outside the pair as positive, in (low, high): golden section. It ends
+ * where the sign is that inside. */
+static cv_status minimum(dg_node *n, const turn *t, double low, double high)
 {
     static const double GOLDEN = 0.381966011250105;
     double at[2] = {low + GOLDEN * (high - low), high - GOLDEN * (high - low)};
     dg_node value[2];
-    int certain, wanted = 3; /* bits: which of the two are to be evaluated */
-    *inside = 0;
-    for (int i = 0; i < MIN_STEPS; i++) {
-        for (int k = 0; k < 2; k++) {
-            if (!(wanted & (1 << k)))
-                continue;
-            const cv_status status =
-                dg_probe_value(&value[k], &certain, &t->g->probe, t->g->station.alpha, frequency(t, at[k]));
-            *n = value[k];
-            *inside = certain && !is_outside(t, n);
-            if (status != CV_OK || *inside)
-                return status;
-        }
-        const int k = fabs(value[0].im) < fabs(value[1].im); /* 1: the minimum is below at[1] */
+    cv_status status = probe(&value[0], t, at[0]);
+    if (status == CV_OK)
+        status = probe(&value[1], t, at[1]);
+    for (int i = 0; i < MIN_STEPS && status == CV_OK; i++) {
+        const int k = t->outside * (value[1].im - value[0].im) < 0; /* the lower one */
+        *n = value[k];
+        if (!is_outside(t, n))
+            return CV_OK;
         if (k) {
-            high = at[1];
-            at[1] = at[0];
-            value[1] = value[0];
-            at[0] = low + GOLDEN * (high - low);
-        } else {
             low = at[0];
             at[0] = at[1];
             value[0] = value[1];
             at[1] = high - GOLDEN * (high - low);
+        } else {
+            high = at[1];
+            at[1] = at[0];
+            value[1] = value[0];
+            at[0] = low + GOLDEN * (high - low);
         }
-        wanted = k ? 1 : 2;
-        *n = value[k];
+        status = probe(&value[k], t, at[k]);
     }
-    return CV_OK;
+    return status;
 }
 
 /* Where the middle of the pair is expected at alpha: the line through the last two */
@@ -121,15 +123,14 @@ static cv_status look(turn *t, double alpha)
     const double window = fmax(WINDOW * half, fmin(LEAST_WINDOW, 100 * half));
     double low = expected_middle(t, alpha) - window, high = low + 2 * window;
     dg_node below, above, least;
-    int inside;
     status = find_outside(&below, &low, t, -window);
     if (status == CV_OK)
         status = find_outside(&above, &high, t, window);
     if (status == CV_OK)
-        status = minimum(&least, &inside, t, low, high);
+        status = minimum(&least, t, low, high);
     if (status != CV_OK)
         return status;
-    if (!inside) {
+    if (is_outside(t, &least)) {
         t->gone = alpha;
         t->q_gone = least.q;
         return CV_OK;
