@@ -143,9 +143,16 @@ static cv_status found(const dg_sample *low, const dg_sample *high, void *contex
     hunt *h = context;
     const dg_hunter hunter = {excess, NULL, h};
     dg_sample zero;
-    const cv_status status = dg_hunt_refine(&zero, &hunter, low, high);
+    cv_status status = dg_hunt_refine(&zero, &hunter, low, high);
+    dg_followed m = {.alpha = zero.at};
+    if (status == CV_OK)
+        status = dg_line_between(&m, h->g, &h->l, &h->r);
+    if (status != CV_OK)
+        return status;
+    dg_line_polish(&m, h->g); /* and one step of Newton's method from there */
+    const double step = (h->x - m.at.x) / m.at.dx;
     const int change = (high->value >= 0 ? 2 : -2) * h->l.at.direction;
-    return status == CV_OK ? add_passage(h, zero.at, zero.aside, change) : status;
+    return add_passage(h, m.alpha + step, m.at.q + m.at.dq * step, change);
 }
 
 /* In the turning point itself, where doubles do not resolve alpha: on the side where the pair exists, the
