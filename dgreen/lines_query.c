@@ -20,29 +20,57 @@ cv_status dg_line_between(dg_followed *m, dg_line_graph *g, const dg_followed *l
     return status == CV_OK ? dg_crossing_between(m, &g->station, &g->probe, l, r, alike, g->why) : status;
 }
 
+typedef struct {
+    const dg_probe *probe;
+    double alpha;
+    dg_node low, high;
+} bracket;
+
+/* Moves one end to q, if that is inside and its sign is certain. */
+static int move_end(bracket *b, double q)
+{
+    dg_node next;
+    if (!(q > b->low.q && q < b->high.q) || dg_probe_at(&next, b->probe, b->alpha, q) != CV_OK)
+        return 0;
+    *((next.im > 0) == (b->low.im > 0) ? &b->low : &b->high) = next;
+    return 1;
+}
+
+/* Closes in on both sides of q, at growing distances until it is between the ends. */
+static void close_in(bracket *b, double q)
+{
+    const double width = b->high.q - b->low.q;
+    for (double d = fmax(4 * DBL_EPSILON * q, 1e-8 * width); d < width; d *= 30) {
+        move_end(b, q - d);
+        move_end(b, q + d);
+        if (b->low.q >= q - d && b->high.q <= q + d)
+            return;
+    }
+}
+
 void dg_line_polish(dg_followed *f, const dg_line_graph *g)
 {
-    enum { STEPS = 12 };
+    enum { STEPS = 24 };
     dg_crossing *c = &f->at;
-    dg_node low, high, next;
-    if (dg_probe_at(&low, &g->probe, f->alpha, c->q_low) != CV_OK ||
-        dg_probe_at(&high, &g->probe, f->alpha, c->q_high) != CV_OK || (low.im > 0) == (high.im > 0))
+    bracket b = {.probe = &g->probe, .alpha = f->alpha};
+    if (dg_probe_at(&b.low, b.probe, f->alpha, c->q_low) != CV_OK ||
+        dg_probe_at(&b.high, b.probe, f->alpha, c->q_high) != CV_OK || (b.low.im > 0) == (b.high.im > 0))
         return;
-    for (int i = 0; i < STEPS && high.q - low.q > 4 * DBL_EPSILON * high.q; i++) {
-        const double zero = low.q + low.im / (low.im - high.im) * (high.q - low.q);
-        const double beside = fmax(2 * DBL_EPSILON * zero, 1e-3 * fmin(zero - low.q, high.q - zero));
-        const double q = i % 2 ? zero + beside : zero - beside;
-        if (!(q > low.q && q < high.q) || dg_probe_at(&next, &g->probe, f->alpha, q) != CV_OK)
+    close_in(&b, c->q);
+    for (int i = 0; i < STEPS && b.high.q - b.low.q > 4 * DBL_EPSILON * b.high.q; i++) {
+        const double zero = b.low.q + b.low.im / (b.low.im - b.high.im) * (b.high.q - b.low.q);
+        const double beside = fmax(2 * DBL_EPSILON * zero, 1e-3 * fmin(zero - b.low.q, b.high.q - zero));
+        const double middle = b.low.q + (b.high.q - b.low.q) / 2;
+        if (!move_end(&b, i % 3 == 2 ? middle : i % 3 ? zero + beside : zero - beside) && i % 3 == 2)
             break;
-        *((next.im > 0) == (low.im > 0) ? &low : &high) = next;
     }
-    const double part = low.im / (low.im - high.im);
-    c->q_low = low.q;
-    c->q_high = high.q;
-    c->q = low.q + part * (high.q - low.q);
-    c->x = low.re + part * (high.re - low.re);
-    c->x_low = fmin(low.re - low.re_error, high.re - high.re_error);
-    c->x_high = fmax(low.re + low.re_error, high.re + high.re_error);
+    const double part = b.low.im / (b.low.im - b.high.im);
+    c->q_low = b.low.q;
+    c->q_high = b.high.q;
+    c->q = b.low.q + part * (b.high.q - b.low.q);
+    c->x = b.low.re + part * (b.high.re - b.low.re);
+    c->x_low = fmin(b.low.re - b.low.re_error, b.high.re - b.high.re_error);
+    c->x_high = fmax(b.low.re + b.low.re_error, b.high.re + b.high.re_error);
 }
 
 static int in_doubt(const dg_lines *l, double alpha)
