@@ -6,25 +6,37 @@
 #include "semianalytic/crossings.h"
 #include "semianalytic/transitions_parts.h"
 
-static cv_status count_at(int *roots, const sa_map *map, sa_field *field, double alpha, double level)
+/* N at one end of a closed column, and how near, relatively, a line passes 1 / eta_M there. */
+typedef struct {
+    int roots;
+    double nearest;
+} side;
+
+static cv_status count_at(side *out, const sa_map *map, sa_field *field, double alpha, double level)
 {
     sa_crossings crossings;
     cv_status status = sa_crossings_find(&crossings, map, field, alpha, level / 2, NULL);
     if (status == CV_OK)
-        status = sa_crossings_count(roots, &crossings, level);
+        status = sa_crossings_count(&out->roots, &crossings, level);
+    for (size_t i = 0; i < crossings.count; ++i)
+        out->nearest = fmin(out->nearest, fabs(crossings.items[i].re / level - 1));
     sa_crossings_clear(&crossings);
     return status;
 }
 
-static void append(sa_transitions *list, const sa_map *map, const sa_column *c, int step, int digits)
+/* The special velocity, or where there is none or several, or where a line passes 1 / eta_M so nearly that it
+ * may do so inside, anywhere in the column. */
+static void append(sa_transitions *list, const sa_map *map, const sa_column *c, int step, int certain,
+                   int digits)
 {
     sa_transition *t = &list->items[list->count++];
     double width = c->alpha_high - c->alpha_low;
     mpfr_inits2(53, t->alpha, t->q, (mpfr_ptr)0);
     mpfr_set_d(t->alpha, c->alpha_low + width / 2, MPFR_RNDN);
     mpfr_set_zero(t->q, 1);
-    t->alpha_error = t->q_error = width;
-    if (c->special >= 0) {
+    t->alpha_error = width;
+    t->q_error = INFINITY;
+    if (c->special >= 0 && certain) {
         const sa_special *special = &map->curves.special[c->special];
         mpfr_set_d(t->alpha, special->alpha, MPFR_RNDN);
         mpfr_set_d(t->q, special->q, MPFR_RNDN);
@@ -38,9 +50,10 @@ static void append(sa_transitions *list, const sa_map *map, const sa_column *c, 
 cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field *field, double level,
                                int digits)
 {
+    const double near = 1e-3; /* much more than Re zeta varies along a line in a closed column */
     for (size_t i = 1; i + 1 < map->count; ++i) {
         const sa_column *c = &map->column[i];
-        int below = 0, above = 0;
+        side below = {0, INFINITY}, above = {0, INFINITY};
         if (!c->closed)
             continue;
         cv_status status = count_at(&below, map, field, c->alpha_low - c[-1].length_high / 10, level);
@@ -51,8 +64,9 @@ cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field
                                  c->alpha_low);
         else if (status != CV_OK)
             return status;
-        else if (above != below)
-            append(list, map, c, above - below, digits);
+        else if (above.roots != below.roots)
+            append(list, map, c, above.roots - below.roots, fmin(below.nearest, above.nearest) > near,
+                   digits);
     }
     return CV_OK;
 }
