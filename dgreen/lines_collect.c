@@ -44,10 +44,11 @@ static int directed(collector *c, int *reverse)
 {
     int agree = 0, differ = 0;
     for (size_t i = 0; i + 1 < c->count; i++) {
-        const dg_line_node *a = &c->g->nodes[c->order[i]], *b = &c->g->nodes[c->order[i + 1]];
-        const dg_line_node *plain = a->turns ? b : a;
-        const int grows = b->is.alpha > a->is.alpha;
-        *(grows == (plain->is.at.direction > 0) ? &agree : &differ) += 1;
+        const int from = c->order[i], to = c->order[i + 1];
+        const dg_line_node *a = &c->g->nodes[from], *b = &c->g->nodes[to];
+        /* by the links: next to a turning point two velocities may be the same double */
+        const int grows = a->turns ? b->link[DG_LINE_LOWER] == from : a->link[DG_LINE_HIGHER] == to;
+        *(grows == ((a->turns ? b : a)->is.at.direction > 0) ? &agree : &differ) += 1;
     }
     *reverse = differ > agree;
     return agree == 0 || differ == 0;
