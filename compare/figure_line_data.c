@@ -89,10 +89,6 @@ cv_status cmp_line_data(cmp_picture *p, const char *name, size_t *branches, cmp_
     sa_lines lines;
     cmp_damping_text damping;
     *branches = 0;
-    if (cv_params_undamped(params)) {
-        cmp_picture_doubt(p, "no lines without damping");
-        return CV_OK;
-    }
     cv_status status = find(&lines, params, range, why);
     if (status == CV_BAD_INPUT || status == CV_UNDECIDED) {
         cmp_picture_doubt(p, why->text);

@@ -19,8 +19,8 @@ typedef struct {
 } cmp_extents;
 
 /* Adds the block "NAME LEVEL" (from 1 on): alpha, eta_M, q along each branch of the semianalytical method's
- * lines at one damping, branches apart by an empty line. *branches becomes their number; without any, and
- * without damping, there is no block. What is undecided about them is noted in the picture. extents NULL, or
+ * lines at one damping, branches apart by an empty line. *branches becomes their number; without any
+ * there is no block. What is undecided about them is noted in the picture. extents NULL, or
  * the branches are added to it; the caller frees ends. */
 cv_status cmp_line_data(cmp_picture *p, const char *name, size_t *branches, cmp_extents *extents,
                         const cv_params *params, const cmp_line_range *range, size_t level, cv_message *why);

@@ -38,8 +38,9 @@ static void write_column(FILE *data, double alpha, const grid *g, const dg_map_c
     fputc('\n', data);
 }
 
-static cv_status write_level(FILE *data, const cv_params *params, const grid *g, size_t level,
-                             cv_message *why)
+/* *undecided: grows by the fields without number or growth rate. */
+static cv_status write_level(FILE *data, size_t *undecided, const cv_params *params, const grid *g,
+                             size_t level, cv_message *why)
 {
     dg_sampler sampler;
     dg_map_cell cells[ROWS];
@@ -50,10 +51,12 @@ static cv_status write_level(FILE *data, const cv_params *params, const grid *g,
             level + 1);
     for (int i = 0; i < COLUMNS && status == CV_OK; i++) {
         status = dg_map_row(cells, &sampler, g->alphas[i], ROWS, g->masses, why);
-        if (status == CV_UNDECIDED)
+        if (status == CV_UNDECIDED) /* all cells are */
             status = CV_OK;
         if (status == CV_OK)
             write_column(data, g->alphas[i], g, cells);
+        for (int j = 0; j < ROWS; j++)
+            *undecided += cells[j].count < 0 || isnan(cells[j].growth);
     }
     dg_sampler_clear(&sampler);
     return status;
@@ -102,19 +105,27 @@ static cv_status draw(cmp_picture *p, const cmp_figure *f, const cmp_velocities 
     cmp_mass_tics(p->script, r->lightest, r->heaviest);
     fprintf(p->script,
             "set tics front\nunset key\n"
+            "# fields that are undecided\n"
+            "set object rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#c0c0c0'\n"
             "# log10 of the growth rate; the smallest ones share a colour, stable fields have their own\n"
             "growth(n, g) = n == 0 ? -4.5 : g < 2e-4 ? -3.5 : log10(g)\n");
+    size_t undecided = 0;
     cv_status status = CV_OK;
     cv_params_init(&params);
     for (size_t l = 0; l < shown && status == CV_OK; l++) {
         size_t branches = 0;
         cmp_figure_params(&params, f, l);
-        status = write_level(p->data, &params, &g, l, why);
+        status = write_level(p->data, &undecided, &params, &g, l, why);
         if (status == CV_OK)
             status = cmp_line_data(p, "lines", &branches, NULL, &params, r, l, why);
         write_panels(p->script, v, &params, l, branches);
     }
     cv_params_clear(&params);
+    if (undecided > 0) {
+        char text[64];
+        snprintf(text, sizeof text, "%zu fields of the map", undecided);
+        cmp_picture_doubt(p, text);
+    }
     cmp_velocities_data(p->data, v);
     fprintf(p->script, "unset multiplot\n");
     return status;
