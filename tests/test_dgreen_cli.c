@@ -126,6 +126,53 @@ START_TEST(full_disk)
 }
 END_TEST
 
+/* Case 1 at 0.1 has one line in 0.1 <= alpha <= 0.2: from the asymptote near 0.1516 to the upper end. CSV and
+ * JSON hold the same vertices, --output the same bytes as standard output. */
+START_TEST(lines)
+{
+    static char first[sizeof output];
+    json_t *root, *line, *vertex;
+    const char *name;
+    int n;
+    double alpha, q, mass;
+    ck_assert_int_eq(run("lines FILE --format json"), 0);
+    strcpy(first, output);
+    root = json_loads(output, 0, NULL);
+    ck_assert_int_eq(json_unpack(root, "{s:s, s:b, s:[o]}", "schema", &name, "decided", &n, "lines", &line),
+                     0);
+    ck_assert_str_eq(name, "critvel-dgreen-lines/1");
+    ck_assert_int_eq(n, 1);
+    ck_assert_int_eq(json_unpack(line, "{s:{s:s, s:f}, s:{s:s}}", "start", "exit", &name, "asymptote_alpha",
+                                 &alpha, "end", "exit", &name),
+                     0);
+    ck_assert_str_eq(name, "highest alpha");
+    ck_assert_double_eq_tol(alpha, 0.1516429225, 1e-9);
+    vertex = json_array_get(json_object_get(line, "alpha_q_eta_M"), 0);
+    ck_assert_int_eq(json_unpack(vertex, "[f, f, f]", &alpha, &q, &mass), 0);
+    ck_assert_double_eq_tol(mass, 1e4, 1e-2);
+    json_decref(root);
+    ck_assert_int_eq(run("lines FILE --format csv"), 0);
+    double csv[3];
+    ck_assert_int_eq(sscanf(output, "line,alpha,q,eta_M,mark\n1,%lf,%lf,%lf,", &csv[0], &csv[1], &csv[2]), 3);
+    ck_assert_double_eq_tol(csv[0], alpha, 1e-15);
+    ck_assert_double_eq_tol(csv[1], q, 1e-14);
+    ck_assert_double_eq_tol(csv[2], mass, 1e-9);
+    ck_assert_int_eq(run("lines FILE"), 0);
+    ck_assert_ptr_nonnull(strstr(output, "1 lines for 0.1 <= alpha <= 0.2"));
+    char command[200];
+    snprintf(command, sizeof command, "lines FILE --format json --output %s/out", folder);
+    ck_assert_int_eq(run(command), 0);
+    ck_assert_str_eq(output, "");
+    snprintf(command, sizeof command, "%s/out", folder);
+    FILE *file = fopen(command, "r");
+    ck_assert_ptr_nonnull(file);
+    output[fread(output, 1, sizeof output - 1, file)] = '\0';
+    fclose(file);
+    remove(command);
+    ck_assert_str_eq(output, first);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dgreen program");
@@ -136,6 +183,7 @@ int main(void)
     tcase_add_test(c, defaults_and_zeros);
     tcase_add_test(c, wrong_usage);
     tcase_add_test(c, full_disk);
+    tcase_add_test(c, lines);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

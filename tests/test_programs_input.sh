@@ -127,6 +127,23 @@ refuse "format" "unknown format" "$file" --format xml
 refuse "damping" "negative --damping" "$file" --damping -1
 refuse "damping" "--damping nan" "$file" --damping nan
 refuse "surplus" "two files" "$file" "$file"
+lines() { "$build/critvel-dgreen" lines "$@"; }
+programs=lines
+refuse "missing.ini: " "missing file" "$folder/missing.ini"
+refuse "range first:last" "one velocity" "$file" --alpha 0.3
+refuse "range first:last" "a row of velocities" "$file" --alpha 0.1:0.3:5
+refuse "greater than the first" "reversed range" "$file" --alpha 0.3:0.1
+refuse "0 < first < last" "range from zero" "$file" --alpha 0:0.3
+refuse "0 < first < last" "negative masses" "$file" --mass-ratio -1:10
+refuse "mass-ratio" "half a range" "$file" --mass-ratio 1:
+refuse "alpha" "a range that is no number" "$file" --alpha 0.1:x
+refuse "damping" "no damping" "$file" --damping 0
+refuse "2" "unknown case" "$file" --case 2
+dgreen() { "$build/critvel-dgreen" "$@"; }
+programs=dgreen
+refuse "one number" "a range for count" count "$file" --alpha 0.1:0.2
+refuse "one number" "a row for transitions" transitions "$file" --mass-ratio 1:10:3
+refuse "first:last:count" "a range for map" map "$file" --alpha 0.1:0.2 --mass-ratio 1
 programs=compare
 refuse "no case file" "no file"
 refuse "threads" "no threads" "$file" --threads 0
@@ -151,18 +168,25 @@ closed() {
     rm "$folder/pipe"
     return $code
 }
-for program in compare dgreen semianalytic; do
+dgreen() { "$build/critvel-dgreen" z "$@" --alpha 0.3 --frequency 0.22; }
+for program in compare dgreen lines semianalytic; do
     fails "$program, full disk" full $program
     fails "$program, closed pipe" closed $program
 done
 fails "output in a folder that is not there" compare "$file" --output "$folder/none/report"
 fails "output onto a directory" compare "$file" --output "$folder"
 fails "output onto a full disk" compare "$file" --output /dev/full
+fails "lines, output in a folder that is not there" lines "$file" --output "$folder/none/report"
+fails "lines, output onto a directory" lines "$file" --output "$folder"
+fails "lines, output onto a full disk" lines "$file" --output /dev/full
 printf '%s\n' "old" >"$folder/report"
 printf 'wrong\n' >"$folder/wrong.ini"
 compare "$folder/wrong.ini" --output "$folder/report" >"$folder/out" 2>"$folder/err"
 status=$?
 expect 2 "wrong.ini:1: " "bad input with --output"
+lines "$folder/wrong.ini" --output "$folder/report" >"$folder/out" 2>"$folder/err"
+status=$?
+expect 2 "wrong.ini:1: " "lines, bad input with --output"
 [ "$(cat "$folder/report")" = old ] || complain "bad input changed the output file"
 [ -z "$(find "$folder" -name 'report.*')" ] || complain "a temporary file was left behind"
 
