@@ -46,41 +46,69 @@ static int ends_in_cusp(const sa_branch_curves *curves, size_t arc, int at_high)
     return 1;
 }
 
-/* |q| of the ghost minus that of an arc; 0 where there is no arc. */
-static double gap(const sa_ghost *ghost, const sa_branch_curves *curves, int arc, double alpha)
+/* A ghost and an arc; q = 0 for arc = -1 */
+typedef struct {
+    const sa_branch_curves *curves;
+    const sa_ghost *ghost;
+    int arc;
+} meeting;
+
+/* q of the ghost minus that of the arc and of its reflection, all signed, so that both are smooth. */
+static void gaps(double gap[2], const meeting *m, double alpha)
 {
-    double q = fabs(sa_map_ghost_q(ghost, alpha));
+    double q = sa_map_ghost_q(m->ghost, alpha);
     sa_wave wave;
-    long double other;
-    if (arc < 0)
-        return sa_map_ghost_q(ghost, alpha);
-    const sa_branch_arc *a = &curves->arc[arc];
-    if (!(alpha >= a->alpha_low && alpha <= a->alpha_high) ||
-        sa_branch_arc_at(&wave, &other, curves, (size_t)arc, alpha) != CV_OK)
-        return 0;
-    return q - (double)fabsl(other);
+    long double other = 0;
+    if (m->arc >= 0 && sa_branch_arc_at(&wave, &other, m->curves, (size_t)m->arc, alpha) != CV_OK)
+        other = q;
+    gap[0] = q - (double)other;
+    gap[1] = q + (double)other;
 }
 
-/* Velocities where the ghost meets an arc, or q = 0 for arc = -1. */
-static cv_status meetings(sa_map_cuts *cuts, const sa_ghost *ghost, const sa_branch_curves *curves, int arc)
+/* alpha, or the end of the arc that is nearest to it */
+static double on_arc(const meeting *m, double alpha)
 {
-    double previous = ghost->alpha, before = 0;
+    if (m->arc < 0)
+        return alpha;
+    const sa_branch_arc *a = &m->curves->arc[m->arc];
+    return fmin(fmax(alpha, (double)a->alpha_low), (double)a->alpha_high);
+}
+
+/* gap[kind] has the sign of before at low and another one at high. */
+static cv_status add_meeting(sa_map_cuts *cuts, const meeting *m, int kind, double low, double high,
+                             double before)
+{
+    while (fabs(high - low) > 4e-16 * high && (low + high) / 2 != low && (low + high) / 2 != high) {
+        double middle = (low + high) / 2, here[2];
+        gaps(here, m, middle);
+        if (here[kind] * before > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return sa_map_cuts_add(cuts, high, 1);
+}
+
+/* Velocities where they meet, one at most of each kind in each step. */
+static cv_status meetings(sa_map_cuts *cuts, const meeting *m)
+{
+    const sa_ghost *ghost = m->ghost;
+    double previous = on_arc(m, ghost->alpha), before[2] = {0, 0}, here[2];
+    if (previous != ghost->alpha)
+        gaps(before, m, previous);
     for (int i = 1; i <= GHOST_STEPS; ++i) {
-        double alpha = ghost->alpha + (ghost->end - ghost->alpha) * exp2((i - GHOST_STEPS) * 0.5);
-        double here = gap(ghost, curves, arc, alpha), low = previous, high = alpha;
-        if (here * before < 0) {
-            while (fabs(high - low) > 4e-16 * high && (low + high) / 2 != low && (low + high) / 2 != high) {
-                double middle = (low + high) / 2;
-                if (gap(ghost, curves, arc, middle) * before > 0)
-                    low = middle;
-                else
-                    high = middle;
-            }
-            if (sa_map_cuts_add(cuts, high, 1) != CV_OK)
+        double step = (ghost->end - ghost->alpha) * exp2((i - GHOST_STEPS) * 0.5);
+        double alpha = on_arc(m, ghost->alpha + step);
+        if (alpha == previous)
+            continue;
+        gaps(here, m, alpha);
+        for (int kind = 0; kind < 2; ++kind) {
+            if (here[kind] * before[kind] < 0 &&
+                add_meeting(cuts, m, kind, previous, alpha, before[kind]) != CV_OK)
                 return CV_FAILED;
+            before[kind] = here[kind];
         }
         previous = alpha;
-        before = here;
     }
     return CV_OK;
 }
@@ -98,9 +126,11 @@ cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts)
         if (make_ghost(ghost, map, i / 2, i % 2 == 1) != CV_OK ||
             sa_map_cuts_add(cuts, ghost->end, 0) != CV_OK)
             return CV_FAILED;
-        for (int arc = -1; arc < (int)curves->arc_count; ++arc)
-            if (meetings(cuts, ghost, curves, arc) != CV_OK)
+        for (int arc = -1; arc < (int)curves->arc_count; ++arc) {
+            const meeting m = {curves, ghost, arc};
+            if (meetings(cuts, &m) != CV_OK)
                 return CV_FAILED;
+        }
     }
     return CV_OK;
 }
