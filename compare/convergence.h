@@ -1,5 +1,12 @@
 /* How the stability limit tends to that of the undamped track as the damping falls. All quantities
- * dimensionless. */
+ * dimensionless.
+ *
+ * Where zeta is smooth at the limit the order is 1. At a resonance velocity alpha_r of the moving force
+ * branch points
+ * +-q_b, q_b ~ |alpha - alpha_r|, meet at q = 0, and the order is 2/11: next to q_b, at a distance d, Re zeta
+ * ~ q_b^2 d^(-1/2) = 1 / eta_M gives d ~ q_b^4; there damping makes Im zeta ~ eta q_b^2 d^(-3/2) ~ eta
+ * q_b^(-4), which balances the waves of the other branch point, at a distance 2 q_b on the side where they
+ * run, Im zeta ~ q_b^2 q_b^(-1/2): eta ~ q_b^(11/2). */
 #ifndef CRITVEL_COMPARE_CONVERGENCE_H
 #define CRITVEL_COMPARE_CONVERGENCE_H
 

@@ -140,7 +140,9 @@ static void print_words(FILE *out, const view *v)
     else if (isfinite(s->order))
         fprintf(out, "  tends to the limit in order %.3f; %.3e away at the last level%s\n", s->order,
                 last->to_limit,
-                mpfr_zero_p(s->limit->q) ? "; the limit is a resonance velocity of the moving force" : "");
+                mpfr_zero_p(s->limit->q)
+                    ? "; the limit is a resonance velocity of the moving force (theory: order 2/11)"
+                    : "");
     else
         fprintf(out, "  on the branch of the limit since the last levels, %.3e away; no order yet\n",
                 last->to_limit);
