@@ -173,6 +173,8 @@ cv_status cmp_convergence_find(cmp_convergence_run *run, size_t threads, const c
         status = cmp_run_find(&run->run, threads, listener, why);
     if (status == CV_OK)
         status = cmp_run_judge(&run->run, threads, listener, why);
+    if (status == CV_OK)
+        status = cmp_run_search_again(&run->run, threads, listener, why);
     return status;
 }
 
