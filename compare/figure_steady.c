@@ -7,18 +7,22 @@
 #include "semianalytic/steady.h"
 
 enum { POINTS = 1201, DIGITS = 6 };
-/* Half the width of the picture in units of the longest wave or decay length that counts, and what counts. */
-static const double LENGTHS = 3, COUNTS = 0.02;
+/* Half the width of the picture: so many of the longest wave or decay length that counts, but not more of the
+ * shortest one than can be seen; and what counts. */
+static const double LENGTHS = 3, SEEN = 20, COUNTS = 0.02;
 
 static double reach_of(const sa_steady *s)
 {
-    double heaviest = 0, reach = 0;
+    double heaviest = 0, longest = 0, shortest = HUGE_VAL;
     for (int i = 0; i < s->count; i++)
         heaviest = fmax(heaviest, (double)cabsl(s->term[i].weight[0]));
     for (int i = 0; i < s->count; i++)
-        if ((double)cabsl(s->term[i].weight[0]) >= COUNTS * heaviest)
-            reach = fmax(reach, 2 * M_PI / (double)cabsl(s->term[i].p));
-    return cmp_round_up(LENGTHS * reach);
+        if ((double)cabsl(s->term[i].weight[0]) >= COUNTS * heaviest) {
+            const double length = 2 * M_PI / (double)cabsl(s->term[i].p);
+            longest = fmax(longest, length);
+            shortest = fmin(shortest, length);
+        }
+    return cmp_round_up(fmin(LENGTHS * longest, SEEN * shortest));
 }
 
 /* One panel: the shapes at one velocity. */
@@ -63,23 +67,33 @@ static void begin(const cmp_picture *p, int panels)
         fprintf(s, "set multiplot layout 1,2\n");
 }
 
-/* Half the lowest true resonance velocity and a fifth above it, to two digits; some velocity when there is
- * none. */
-static cv_status choose_alphas(cv_number alphas[2], int *count, const cv_params *params, cv_message *why)
+/* The lowest velocity, true resonance or pseudocritical of max or min, at which the deflection has a peak; 0:
+ * there is none. */
+static double lowest_peak(const cmp_velocities *v)
 {
-    sa_resonance_list resonances = {.count = 0};
-    cv_status status = sa_resonances(&resonances, params, 15, why);
-    size_t i = 0;
-    while (i < resonances.count && resonances.item[i].kind == SA_RESONANCE_FALSE)
-        i++;
-    const double lowest = i < resonances.count ? cmp_resonance_alpha(&resonances.item[i]) : 0.2;
-    *count = i < resonances.count ? 2 : 1;
+    double lowest = HUGE_VAL;
+    for (size_t i = 0; i < v->resonances.count; i++)
+        if (v->resonances.item[i].kind != SA_RESONANCE_FALSE)
+            lowest = fmin(lowest, cmp_resonance_alpha(&v->resonances.item[i]));
+    for (size_t i = 0; i < v->peaks.count; i++)
+        if (v->peaks.item[i].of != SA_CURVE_ACTIVE_POINT)
+            lowest = fmin(lowest, (double)v->peaks.item[i].alpha);
+    return isfinite(lowest) ? lowest : 0;
+}
+
+/* Half that velocity and a fifth above it, to two digits; some velocity when there is none. */
+static cv_status choose_alphas(cv_number alphas[2], int *count, const cmp_figure *f, cv_message *why)
+{
+    cmp_velocities v = {.low = 0};
+    cv_status status = cmp_velocities_find(&v, f, why);
+    const double peak = lowest_peak(&v);
+    *count = peak > 0 ? 2 : 1;
     for (int k = 0; k < *count && status == CV_OK; k++) {
         char text[32];
-        snprintf(text, sizeof text, "%.2g", lowest * (k == 0 ? 0.5 : 1.2));
+        snprintf(text, sizeof text, "%.2g", peak > 0 ? peak * (k == 0 ? 0.5 : 1.2) : 0.1);
         status = cv_number_parse(&alphas[k], text, why);
     }
-    sa_resonances_clear(&resonances);
+    cmp_velocities_clear(&v);
     return status;
 }
 
@@ -103,7 +117,7 @@ static cv_status draw(cmp_picture *p, const cmp_figure *f, const cv_params *para
     if (f->set->alpha.given)
         cv_number_set(&alphas[0], &f->set->alpha.value);
     else
-        status = choose_alphas(alphas, &count, params, why);
+        status = choose_alphas(alphas, &count, f, why);
     begin(p, count);
     for (int i = 0; i < count && status == CV_OK; i++)
         status = draw_panel(p, params, &alphas[i], (char)('a' + i), count == 1, why);

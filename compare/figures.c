@@ -38,7 +38,7 @@ static const char HELP[] =
     "  --alpha X         curve, steady: at this velocity (default: curve: the first multiple of 0.05, or "
     "0.01, "
     "that shows\n"
-    "                    it; steady: below and above the lowest true resonance velocity)\n"
+    "                    it; steady: below and above the lowest true resonance or pseudocritical velocity)\n"
     "  --mass-ratio X    curve: for this mass (default: one to either side of the crossing)\n"
     "  --format FORMAT   svg or pdf (default: both)\n"
     "  --threads N       at most N threads (default: one for each processor)\n"
