@@ -148,7 +148,11 @@ static cv_status finish_lists(sa_transitions *lists, search_pass *p, const cv_nu
                                          &mass_ratios[p->index[i]], digits);
     }
     const sa_verification v = {&b->map, p->field, lists, p->count, p->index, p->level, re_low};
-    return status == CV_OK ? sa_transitions_verify(&v) : status;
+    if (status == CV_OK)
+        status = sa_transitions_verify(&v);
+    for (size_t i = 0; i < p->count && b->map.undamped; ++i)
+        sa_transitions_explain_limit(&lists[p->index[i]]);
+    return status;
 }
 
 static cv_status run_pass(sa_transitions *lists, search_pass *p, const cv_number *mass_ratios, int digits,

@@ -2,8 +2,12 @@
  * crossings of zeta(iq) at infinity change their number or order, and N with them for a whole range of mass
  * ratios. In the (eta_M, alpha) plane the lines have vertical parts there. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "semianalytic/crossings.h"
+#include "semianalytic/matrix.h"
+#include "semianalytic/resonances.h"
 #include "semianalytic/transitions_parts.h"
 
 /* N at one end of a closed column, and how near, relatively, a line passes 1 / eta_M there. */
@@ -24,12 +28,35 @@ static cv_status count_at(side *out, const sa_map *map, sa_field *field, double 
     return status;
 }
 
+/* A resonance velocity to the digits, proven; q = 0 is exact there. */
+static cv_status refine_resonance(sa_transition *t, const sa_track *track, int digits)
+{
+    sa_resonance_list list;
+    cv_status status = sa_resonances(&list, &track->exact, digits + 1, NULL);
+    if (status != CV_OK)
+        return status;
+    for (size_t i = 0; i < list.count; ++i) {
+        const sa_resonance *r = &list.item[i];
+        double alpha = mpfr_get_d(r->alpha, MPFR_RNDN);
+        if (!(fabs(alpha - mpfr_get_d(t->alpha, MPFR_RNDN)) < 1e-13 * alpha))
+            continue;
+        mpfr_set_prec(t->alpha, mpfr_get_prec(r->alpha));
+        mpfr_set(t->alpha, r->alpha, MPFR_RNDN);
+        t->alpha_error = ldexp(alpha, -(int)r->bits);
+        t->q_error = 0;
+        break;
+    }
+    sa_resonances_clear(&list);
+    return CV_OK;
+}
+
 /* The special velocity, or where there is none or several, or where a line passes 1 / eta_M so nearly that it
  * may do so inside, anywhere in the column. */
-static void append(sa_transitions *list, const sa_map *map, const sa_column *c, int step, int certain,
-                   int digits)
+static cv_status append(sa_transitions *list, const sa_track *track, const sa_map *map, const sa_column *c,
+                        int step, int certain, int digits)
 {
     sa_transition *t = &list->items[list->count++];
+    cv_status status = CV_OK;
     double width = c->alpha_high - c->alpha_low;
     mpfr_inits2(53, t->alpha, t->q, (mpfr_ptr)0);
     mpfr_set_d(t->alpha, c->alpha_low + width / 2, MPFR_RNDN);
@@ -42,13 +69,25 @@ static void append(sa_transitions *list, const sa_map *map, const sa_column *c, 
         mpfr_set_d(t->q, special->q, MPFR_RNDN);
         t->alpha_error = 4e-15 * special->alpha;
         t->q_error = 4e-15 * (1 + special->q);
+        if (special->kind == SA_SPECIAL_RESONANCE)
+            status = refine_resonance(t, track, digits);
     }
     t->above = step;
     t->decided = t->alpha_error < pow(10, -digits) * mpfr_get_d(t->alpha, MPFR_RNDN) ? CV_OK : CV_UNDECIDED;
+    return status;
 }
 
-cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field *field, double level,
-                               int digits)
+void sa_transitions_explain_limit(sa_transitions *list)
+{
+    size_t used = strlen(list->reason.text), room = sizeof list->reason.text - used;
+    if (list->decided != CV_OK &&
+        snprintf(list->reason.text + used, room,
+                 "; without damping, lines nearer than 1e-12 to a branch curve are counted, not traced") < 0)
+        list->reason.text[used] = '\0';
+}
+
+cv_status sa_transitions_jumps(sa_transitions *list, const sa_track *track, const sa_map *map,
+                               sa_field *field, double level, int digits)
 {
     const double near = 1e-3; /* much more than Re zeta varies along a line in a closed column */
     for (size_t i = 1; i + 1 < map->count; ++i) {
@@ -62,11 +101,11 @@ cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field
         if (status == CV_UNDECIDED)
             sa_transitions_doubt(list, "unstable roots could not be counted beside alpha = %.15g",
                                  c->alpha_low);
-        else if (status != CV_OK)
+        else if (status == CV_OK && above.roots != below.roots)
+            status = append(list, track, map, c, above.roots - below.roots,
+                            fmin(below.nearest, above.nearest) > near, digits);
+        if (status != CV_OK && status != CV_UNDECIDED)
             return status;
-        else if (above.roots != below.roots)
-            append(list, map, c, above.roots - below.roots, fmin(below.nearest, above.nearest) > near,
-                   digits);
     }
     return CV_OK;
 }

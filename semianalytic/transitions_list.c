@@ -96,7 +96,7 @@ cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const s
     }
     if (map->undamped) {
         cv_status status =
-            sa_transitions_jumps(list, map, field, 1 / cv_number_get_double(mass_ratio), digits);
+            sa_transitions_jumps(list, track, map, field, 1 / cv_number_get_double(mass_ratio), digits);
         if (status != CV_OK)
             return status;
     }

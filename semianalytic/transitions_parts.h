@@ -40,10 +40,14 @@ cv_status sa_transitions_assemble(sa_transitions *list, sa_sweep *sweep, const s
                                   const sa_map *map, sa_field *field, const sa_candidates *found,
                                   size_t level, const cv_number *mass_ratio, int digits);
 
+/* Adds to the reason of an undecided list of an undamped track what may be missing. */
+void sa_transitions_explain_limit(sa_transitions *list);
+
 /* Undamped tracks: appends the special velocities at which N changes, as it is counted on either side of the
- * closed columns of the map; list->items has room for one of each. */
-cv_status sa_transitions_jumps(sa_transitions *list, const sa_map *map, sa_field *field, double level,
-                               int digits);
+ * closed columns of the map; list->items has room for one of each. Resonance velocities have all digits,
+ * others those of a double. */
+cv_status sa_transitions_jumps(sa_transitions *list, const sa_track *track, const sa_map *map,
+                               sa_field *field, double level, int digits);
 
 /* Lists that were found together: lists[index[i]] on level[i]. */
 typedef struct {
