@@ -137,15 +137,18 @@ static void print_words(FILE *out, const view *v)
             "  does not converge within these levels: the last one is on another branch, %.3e away from the "
             "limit\n",
             last->to_limit);
-    else if (isfinite(s->order))
-        fprintf(out, "  tends to the limit in order %.3f; %.3e away at the last level%s\n", s->order,
-                last->to_limit,
-                mpfr_zero_p(s->limit->q)
-                    ? "; the limit is a resonance velocity of the moving force (theory: order 2/11)"
-                    : "");
-    else
-        fprintf(out, "  on the branch of the limit since the last levels, %.3e away; no order yet\n",
-                last->to_limit);
+    else {
+        if (s->order > 0)
+            fprintf(out, "  tends to the limit in order %.3f; %.3e away at the last level", s->order,
+                    last->to_limit);
+        else
+            fprintf(out, "  on the branch of the limit, %.3e away at the last level, but in no order yet",
+                    last->to_limit);
+        fputs(mpfr_zero_p(s->limit->q)
+                  ? "; the limit is a resonance velocity of the moving force (theory: order 2/11)\n"
+                  : "\n",
+              out);
+    }
 }
 
 static cv_status print_mass(FILE *out, const view *v, cv_message *why)
