@@ -102,6 +102,17 @@ static cv_status do_phases(cmp_lines_run *run, size_t threads, FILE *log, cv_mes
     return status;
 }
 
+static void warn(const cmp_lines_run *run, FILE *log)
+{
+    cv_message warning;
+    for (size_t i = 0; i < run->case_count; i++) {
+        const cv_case *c = run->cases[i].from;
+        if (cv_params_warn(&c->params, &warning))
+            fprintf(log, "critvel-compare: warning: %s %s: %s\n", c->is_track ? "track" : "case", c->name,
+                    warning.text);
+    }
+}
+
 static cv_status compare(const options *o, const cv_casefile *file, FILE *out, FILE *log, cv_message *why)
 {
     static const cmp_line_method *const methods[] = {&cmp_lines_semianalytic, &cmp_lines_dgreen};
@@ -117,6 +128,7 @@ static cv_status compare(const options *o, const cv_casefile *file, FILE *out, F
                                           s->damping.given ? &s->damping.value : NULL, &task, methods, why);
     if (status != CV_OK)
         return status;
+    warn(&run, log);
     status = do_phases(&run, o->threads, log, why);
     if (status == CV_OK)
         status = s->format == CV_FORMAT_JSON ? cmp_lines_report_json(out, &run, why)

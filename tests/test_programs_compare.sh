@@ -104,5 +104,35 @@ cp "$small" "$folder/efficiency"
 (cd "$folder" && "$compare" ./efficiency --case 1 --damping 0.1 >"$folder/out" 2>"$folder/err")
 verify "a file that is called like a command" grep -q '^verdict' "$folder/out"
 
+exits 0 "roots" roots "$small" --alpha 0.3 --mass-ratio 100
+cp "$folder/out" "$folder/roots.text"
+verify "roots: an unstable one of both methods" grep -q '^  unstable  both' "$folder/out"
+verify "roots: the verdict" grep -q '^verdict: agree' "$folder/out"
+exits 0 "roots again" roots "$small" --mass-ratio 100 --alpha 0.3
+verify "roots: the same bytes" cmp "$folder/out" "$folder/roots.text"
+exits 0 "roots as json" roots "$small" --alpha 0.3 --mass-ratio 100 --format json --digits 10
+verify "roots: schema" grep -q '"schema": "critvel-compare-roots/1"' "$folder/out"
+exits 2 "roots without a velocity" roots "$small" --mass-ratio 100
+verify "roots: nothing written" test ! -s "$folder/out"
+exits 2 "roots at rest" roots "$small" --alpha 0 --mass-ratio 100
+exits 2 "roots without damping" roots "$small" --alpha 0.3 --mass-ratio 100 --damping 0
+verify "roots: one line says why" test "$(wc -l <"$folder/err")" -eq 1
+
+exits 0 "lines" lines "$small" --case 1 --damping 0.1 --samples 400 --threads 1
+cp "$folder/out" "$folder/lines.text"
+verify "lines: the verdict" grep -q '^verdict: agree (1 levels, 2 branches; 400 points counted, 0 mismatches' "$folder/out"
+exits 0 "lines on two threads" lines "$small" --case 1 --damping 0.1 --samples 400 --threads 2
+verify "lines: the same bytes" cmp "$folder/out" "$folder/lines.text"
+exits 0 "lines as json" lines "$small" --case 1 --damping 0.1 --samples 40 --seed 7 --format json --mass-ratio 10:300
+verify "lines: schema" grep -q '"schema": "critvel-compare-lines/1"' "$folder/out"
+verify "lines: the range asked for" grep -q '"max": "300"' "$folder/out"
+verify "lines: the seed" grep -q '"seed": 7' "$folder/out"
+for range in 300 300:10 0:10 1:x :; do
+    exits 2 "lines with --mass-ratio $range" lines "$small" --mass-ratio "$range"
+    verify "lines: nothing written" test ! -s "$folder/out"
+done
+exits 2 "lines without damping" lines "$small" --damping 0
+exits 2 "lines with half a sample" lines "$small" --samples 0.5
+
 echo "Checks: $checks, Failures: $failures"
 [ "$failures" -eq 0 ]
