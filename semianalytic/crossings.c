@@ -5,14 +5,13 @@
 
 #include "semianalytic/map_cell.h"
 
-/* First intervals: natural logarithms of the distance to the curve. */
-static const double largest_interval = 2, tolerance = 0.2;
-
 typedef struct {
     const sa_map_node *node;
     sa_field *field;
     double re_low;
     sa_crossings *out;
+    double largest_interval; /* of the first ones, natural logarithms of the distance to the curve */
+    double tolerance;        /* of one_signed */
     int strip, side;
 } scan;
 
@@ -22,7 +21,7 @@ static cv_status sample(sa_sample *s, const scan *sc, double t)
 }
 
 /* The function keeps its sign between a and b: the tests of map_cell.h in one dimension. */
-static int one_signed(const double f[3], const double slope[3])
+static int one_signed(const double f[3], const double slope[3], double tolerance)
 {
     const double steepest = 6;
     double log_f[3], g[3];
@@ -101,7 +100,7 @@ static cv_status scan_interval(const scan *sc, const sa_sample *a, const sa_samp
     const double im[3] = {a->im, m.im, b->im}, im_t[3] = {a->im_t * h, m.im_t * h, b->im_t * h};
     const double re[3] = {a->re - sc->re_low, m.re - sc->re_low, b->re - sc->re_low};
     const double re_t[3] = {a->re_t * h, m.re_t * h, b->re_t * h};
-    if (one_signed(im, im_t) || (re[0] < 0 && one_signed(re, re_t)))
+    if (one_signed(im, im_t, sc->tolerance) || (re[0] < 0 && one_signed(re, re_t, sc->tolerance)))
         return CV_OK;
     if (steady(im, im_t))
         return (a->im > 0) == (b->im > 0) ? CV_OK : crossing(sc, a, b);
@@ -113,7 +112,7 @@ static cv_status scan_interval(const scan *sc, const sa_sample *a, const sa_samp
 
 static cv_status scan_side(const scan *sc)
 {
-    int n = 1 + (int)(sa_map_strip_extent(sc->node, sc->strip, sc->side) / largest_interval);
+    int n = 1 + (int)(sa_map_strip_extent(sc->node, sc->strip, sc->side) / sc->largest_interval);
     sa_sample a, b;
     sa_field_block(sc->field, 0, 0, sc->strip, sc->side);
     cv_status status = sample(&a, sc, 0);
@@ -186,13 +185,12 @@ static cv_status limit_crossings(const scan *below, const scan *above, const sa_
     return status;
 }
 
-static cv_status scan_gaps(const sa_map_node *node, const sa_map *map, sa_field *field, double re_low,
-                           sa_crossings *out)
+static cv_status scan_gaps(const sa_map_node *node, const sa_map *map, sa_field *field, sa_crossings *out)
 {
     cv_status status = CV_OK;
     for (int curve = 1; curve < node->count - 1 && status == CV_OK; ++curve) {
-        const scan below = {node, field, re_low, out, curve - 1, 1},
-                   above = {node, field, re_low, out, curve, 0};
+        const scan below = {.node = node, .field = field, .out = out, .strip = curve - 1, .side = 1},
+                   above = {.node = node, .field = field, .out = out, .strip = curve, .side = 0};
         if (node->gap[curve] > 0 && map->undamped)
             status = limit_crossings(&below, &above, map, node->q[curve]);
         else if (node->gap[curve] > 0)
@@ -204,16 +202,23 @@ static cv_status scan_gaps(const sa_map_node *node, const sa_map *map, sa_field 
 cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
                             double re_low, cv_message *why)
 {
+    return sa_crossings_find_finer(out, map, field, alpha, re_low, 0, why);
+}
+
+cv_status sa_crossings_find_finer(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
+                                  double re_low, int refinement, cv_message *why)
+{
+    const double interval = 2 / pow(1.7, refinement), tolerance = ldexp(0.2, -refinement);
     sa_map_node node;
     *out = (sa_crossings){0};
     cv_status status = sa_map_node_of(&node, map, alpha);
     for (int strip = 0; status == CV_OK && strip < node.count - 1; ++strip)
         for (int side = 0; side < sa_map_strip_sides(&node, strip) && status == CV_OK; ++side) {
-            scan sc = {&node, field, re_low, out, strip, side};
+            scan sc = {&node, field, re_low, out, interval, tolerance, strip, side};
             status = scan_side(&sc);
         }
     if (status == CV_OK)
-        status = scan_gaps(&node, map, field, re_low, out);
+        status = scan_gaps(&node, map, field, out);
     if (status == CV_OK)
         return CV_OK;
     sa_crossings_clear(out);

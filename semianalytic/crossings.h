@@ -27,6 +27,9 @@ typedef struct {
  * too close to be told apart, or zeta not to be had; then, and on failure, the list is empty. */
 cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
                             double re_low, cv_message *why);
+/* The same from shorter first intervals, by 1.7 for each refinement. */
+cv_status sa_crossings_find_finer(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
+                                  double re_low, int refinement, cv_message *why);
 void sa_crossings_clear(sa_crossings *list);
 
 /* N for 1 / eta_M = level >= re_low. CV_UNDECIDED: a crossing lies at that level within its uncertainty. */

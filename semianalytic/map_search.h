@@ -34,7 +34,7 @@ typedef struct {
  * unstable roots between the transitions (transitions.h) is the check. CV_UNDECIDED: more than
  * SA_MAP_CELLS_MAX cells, or a point where no precision gives zeta. Ends with the first status of a callback
  * that is not CV_OK. */
-enum { SA_MAP_CELLS_MAX = 1000000 };
+enum { SA_MAP_CELLS_MAX = 500000 };
 cv_status sa_map_search(const sa_map *map, sa_field *field, const sa_search *search);
 
 /* The point of a segment at fraction x of its axis. */

@@ -117,11 +117,12 @@ static cv_status trace(search_pass *p, int refinement)
 }
 
 /* N at the lowest velocity for every list */
-static cv_status count_starts(sa_transitions *lists, const search_pass *p, double re_low)
+static cv_status count_starts(sa_transitions *lists, const search_pass *p, double re_low, int refinement)
 {
     sa_crossings start;
     const sa_map *map = &p->boundary->map;
-    cv_status status = sa_crossings_find(&start, map, p->field, map->curves.alpha_min, re_low, NULL);
+    cv_status status =
+        sa_crossings_find_finer(&start, map, p->field, map->curves.alpha_min, re_low, refinement, NULL);
     for (size_t i = 0; i < p->count && (status == CV_OK || status == CV_UNDECIDED); ++i) {
         sa_transitions *list = &lists[p->index[i]];
         cv_status counted = status;
@@ -135,10 +136,10 @@ static cv_status count_starts(sa_transitions *lists, const search_pass *p, doubl
 }
 
 static cv_status finish_lists(sa_transitions *lists, search_pass *p, const cv_number *mass_ratios, int digits,
-                              double re_low)
+                              double re_low, int refinement)
 {
     sa_boundary *b = p->boundary;
-    cv_status status = count_starts(lists, p, re_low);
+    cv_status status = count_starts(lists, p, re_low, refinement);
     for (size_t i = 0; i < p->count && status == CV_OK; ++i) {
         sa_transitions *list = &lists[p->index[i]];
         if (p->levels.doubtful[i])
@@ -147,7 +148,7 @@ static cv_status finish_lists(sa_transitions *lists, search_pass *p, const cv_nu
         status = sa_transitions_assemble(list, b->sweep, b->track, &b->map, p->field, &p->levels.found, i,
                                          &mass_ratios[p->index[i]], digits);
     }
-    const sa_verification v = {&b->map, p->field, lists, p->count, p->index, p->level, re_low};
+    const sa_verification v = {&b->map, p->field, lists, p->count, p->index, p->level, re_low, refinement};
     if (status == CV_OK)
         status = sa_transitions_verify(&v);
     for (size_t i = 0; i < p->count && b->map.undamped; ++i)
@@ -176,7 +177,7 @@ static cv_status run_pass(sa_transitions *lists, search_pass *p, const cv_number
             sa_transitions_doubt(&lists[p->index[i]], "the search for lines Im zeta = 0 came to no end");
     }
     if (status == CV_OK)
-        status = finish_lists(lists, p, mass_ratios, digits, lowest / 2);
+        status = finish_lists(lists, p, mass_ratios, digits, lowest / 2, refinement);
     status = status == CV_UNDECIDED ? CV_OK : status;
     if (p->field != NULL)
         add_counts(&p->boundary->counts, sa_field_counts(p->field));

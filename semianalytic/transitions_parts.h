@@ -57,7 +57,8 @@ typedef struct {
     size_t count;
     const size_t *index;
     const double *level;
-    double re_low; /* below every level */
+    double re_low;  /* below every level */
+    int refinement; /* of the search for crossings */
 } sa_verification;
 
 /* Counts N by crossings between all neighbouring transitions of each list and at the upper end of the range,

@@ -28,7 +28,8 @@ static cv_status visit(const sa_verification *v, double alpha, size_t i)
 {
     sa_crossings crossings;
     int roots;
-    cv_status status = sa_crossings_find(&crossings, v->map, v->field, alpha, v->re_low, NULL);
+    cv_status status =
+        sa_crossings_find_finer(&crossings, v->map, v->field, alpha, v->re_low, v->refinement, NULL);
     if (status == CV_OK)
         compare_all(v, &crossings, alpha);
     if (status == CV_OK)

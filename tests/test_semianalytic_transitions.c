@@ -278,7 +278,7 @@ static void checker_end(checker *c)
 
 static void verify(checker *c, sa_transitions *list)
 {
-    const sa_verification v = {&c->map, c->field, list, 1, &c->index, &c->level, c->level / 2};
+    const sa_verification v = {&c->map, c->field, list, 1, &c->index, &c->level, c->level / 2, 0};
     ck_assert_int_eq(sa_transitions_verify(&v), CV_OK);
 }
 
