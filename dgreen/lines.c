@@ -35,22 +35,35 @@ void dg_lines_clear(dg_lines *l)
     memset(l, 0, sizeof *l);
 }
 
-/* All columns, each linked to the last one */
+/* Every line ends at the first and at the last velocity. */
+static void mark_ends(dg_line_graph *g, const dg_line_column *c, int side, dg_line_exit exit)
+{
+    for (size_t k = 0; k < c->curve.crossing_count; k++)
+        g->nodes[c->first + (int)k].exit[side] = exit;
+}
+
+/* All columns, each linked to the last one; one between that cannot be evaluated is left out. */
 static cv_status walk(dg_line_graph *g, const dg_velocities *v, dg_line_column *columns)
 {
     cv_status status = CV_OK;
+    size_t n = 0;
     for (size_t i = 0; i < v->count && status == CV_OK; i++) {
-        dg_line_column *here = &columns[i % 2];
+        dg_line_column *here = &columns[n % 2];
         status = dg_line_column_at(here, g, v->at[i]);
-        for (size_t k = 0; k < here->curve.crossing_count && status == CV_OK; k++) {
-            if (i == 0)
-                g->nodes[here->first + (int)k].exit[DG_LINE_LOWER] = DG_LINE_ALPHA_MIN;
-            if (i + 1 == v->count)
-                g->nodes[here->first + (int)k].exit[DG_LINE_HIGHER] = DG_LINE_ALPHA_MAX;
+        if (status == CV_UNDECIDED && i > 0 && i + 1 < v->count) {
+            status = CV_OK;
+            continue;
         }
-        if (i > 0 && status == CV_OK)
-            status = dg_line_cell(g, &columns[(i + 1) % 2], here);
+        if (status == CV_OK && i == 0)
+            mark_ends(g, here, DG_LINE_LOWER, DG_LINE_ALPHA_MIN);
+        if (status == CV_OK && i + 1 == v->count)
+            mark_ends(g, here, DG_LINE_HIGHER, DG_LINE_ALPHA_MAX);
+        if (n > 0 && status == CV_OK)
+            status = dg_line_cell(g, &columns[(n + 1) % 2], here);
+        n++;
     }
+    if (status == CV_OK)
+        g->why->text[0] = '\0'; /* of those left out */
     return status;
 }
 
@@ -87,9 +100,13 @@ static cv_status prepare_and_search(dg_line_graph *g, const cv_params *params)
 cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min, double alpha_max,
                         double mass_min, double mass_max, cv_message *why)
 {
+    cv_message unread;
+    why = why ? why : &unread;
     memset(out, 0, sizeof *out);
     if (cv_params_undamped(params))
         return cv_fail(why, CV_BAD_INPUT, "instability lines need damping: all damping ratios are zero");
+    if (mass_max > DG_LINES_MASS_MAX)
+        return cv_fail(why, CV_BAD_INPUT, "instability lines only up to eta_M = %g", DG_LINES_MASS_MAX);
     if (!(alpha_min > 0 && alpha_max > alpha_min && mass_min > 0 && mass_max > mass_min))
         return cv_fail(why, CV_BAD_INPUT, "instability lines need ranges 0 < first < last");
     dg_line_graph *g = calloc(1, sizeof *g);

@@ -68,10 +68,13 @@ typedef struct {
     struct dg_line_graph *graph; /* private: all points */
 } dg_lines;
 
-/* All lines in 0 < alpha_min <= alpha <= alpha_max, 0 < mass_min <= eta_M <= mass_max; a line that leaves the
- * range and comes back is two. params must have passed cv_params_check. CV_OK also with doubts. CV_BAD_INPUT:
- * no damping, or an empty range. CV_UNDECIDED: a curve could not be evaluated at all. CV_FAILED: out of
- * memory. *out is empty unless CV_OK. */
+/* Beyond, curves would be needed at frequencies too low for doubles. */
+#define DG_LINES_MASS_MAX 1e10
+
+/* All lines in 0 < alpha_min <= alpha <= alpha_max, 0 < mass_min <= eta_M <= mass_max <= DG_LINES_MASS_MAX; a
+ * line that leaves the range and comes back is two. params must have passed cv_params_check. CV_OK also with
+ * doubts. CV_BAD_INPUT: no damping, or an empty range. CV_UNDECIDED: a curve could not be evaluated at all.
+ * CV_FAILED: out of memory. *out is empty unless CV_OK. */
 cv_status dg_lines_find(dg_lines *out, const cv_params *params, double alpha_min, double alpha_max,
                         double mass_min, double mass_max, cv_message *why);
 void dg_lines_clear(dg_lines *l);

@@ -5,7 +5,7 @@
 #include "dgreen/lines_graph.h"
 #include "dgreen/velocities.h"
 
-enum { MAX_DEPTH = 60 };
+enum { MAX_DEPTH = 60, MAX_CUTS = 1000 };
 /* A minimum of |Im zeta| may fall this many times as fast as its slope says; it matters from this part of the
  * least x of the range on */
 static const double DIP_SAFETY = 4, DIP_REACH = 0.25;
@@ -126,15 +126,30 @@ static void undo(cell *c, size_t node_count)
 
 static cv_status search(dg_line_graph *g, const dg_line_column *left, const dg_line_column *right, int depth);
 
+/* A column between low and high: half way in the logarithm of the distance from a special velocity; where the
+ * curve cannot be evaluated, elsewhere. */
+static cv_status middle_column(dg_line_column *middle, dg_line_graph *g, double low, double high)
+{
+    static const double ELSEWHERE[] = {0.31, 0.69};
+    cv_status status = dg_line_column_at(middle, g, dg_velocities_middle(g->probe.branches, low, high));
+    for (int i = 0; i < 2 && status == CV_UNDECIDED; i++)
+        status = dg_line_column_at(middle, g, low + ELSEWHERE[i] * (high - low));
+    return status;
+}
+
 static cv_status cut(dg_line_graph *g, const dg_line_column *left, const dg_line_column *right, int depth)
 {
     dg_line_column middle = {0};
-    cv_status status = dg_line_column_at(
-        &middle, g, dg_velocities_middle(g->probe.branches, left->curve.at.alpha, right->curve.at.alpha));
-    if (status == CV_OK)
+    cv_status status = middle_column(&middle, g, left->curve.at.alpha, right->curve.at.alpha);
+    g->cuts++;
+    if (status == CV_OK) {
         status = search(g, left, &middle, depth - 1);
-    if (status == CV_OK)
-        status = search(g, &middle, right, depth - 1);
+        if (status == CV_OK)
+            status = search(g, &middle, right, depth - 1);
+    } else if (status == CV_UNDECIDED) {
+        status = dg_line_doubt_add(g, left->curve.at.alpha, right->curve.at.alpha, g->why->text);
+        g->why->text[0] = '\0';
+    }
     dg_curve_clear(&middle.curve);
     return status;
 }
@@ -148,12 +163,13 @@ static cv_status search(dg_line_graph *g, const dg_line_column *left, const dg_l
     if (status != CV_UNDECIDED)
         return status;
     undo(&c, before);
-    if (depth == 0 || high - low <= 8 * DBL_EPSILON * high)
+    if (depth == 0 || g->cuts == MAX_CUTS || high - low <= 8 * DBL_EPSILON * high)
         return dg_line_doubt_add(g, low, high, "crossings that cannot be followed");
     return cut(g, left, right, depth);
 }
 
 cv_status dg_line_cell(dg_line_graph *g, const dg_line_column *left, const dg_line_column *right)
 {
+    g->cuts = 0;
     return search(g, left, right, MAX_DEPTH);
 }

@@ -72,23 +72,23 @@ static int beyond(const dg_line_graph *g, const dg_line_node *n)
 }
 
 /* A closed line that leaves the range begins outside, so that it is cut like an open one. */
-static void begin_outside(collector *c)
+static cv_status begin_outside(collector *c)
 {
+    const size_t n = c->count - 1; /* the last node repeats the first */
     size_t first = 0;
-    while (first < c->count && !beyond(c->g, &c->g->nodes[c->order[first]]))
+    while (first < n && !beyond(c->g, &c->g->nodes[c->order[first]]))
         first++;
-    if (first == c->count)
-        return;
-    c->closed = 0;
-    c->count--; /* the repeated node */
-    int *rotated = malloc((c->count + 1) * sizeof *rotated);
+    if (first == n)
+        return CV_OK;
+    int *rotated = malloc(c->count * sizeof *rotated);
     if (rotated == NULL)
-        return;
-    for (size_t i = 0; i <= c->count; i++)
-        rotated[i] = c->order[(first + i) % c->count];
-    memcpy(c->order, rotated, (c->count + 1) * sizeof *rotated);
-    c->count++;
+        return cv_fail(c->g->why, CV_FAILED, "out of memory");
+    for (size_t i = 0; i <= n; i++)
+        rotated[i] = c->order[(first + i) % n];
+    memcpy(c->order, rotated, c->count * sizeof *rotated);
     free(rotated);
+    c->closed = 0;
+    return CV_OK;
 }
 
 /* The end of a piece between nodes a (inside) and b */
@@ -184,9 +184,9 @@ static cv_status collect_one(collector *c)
                  last = c->g->nodes[c->order[c->count - 1]].is.alpha;
     if (reverse)
         reverse_order(c);
-    if (c->closed)
-        begin_outside(c);
-    const cv_status status = cut(c);
+    cv_status status = c->closed ? begin_outside(c) : CV_OK;
+    if (status == CV_OK)
+        status = cut(c);
     if (status == CV_OK && !consistent)
         return dg_line_doubt_add(c->g, first < last ? first : last, first < last ? last : first,
                                  "a line without a direction");

@@ -35,6 +35,7 @@ typedef struct dg_line_graph {
     dg_line_node *nodes;
     dg_lines *lines;    /* where doubts and results go */
     dg_station station; /* scratch */
+    int cuts;           /* of the cell that is being searched */
     cv_message *why;
 } dg_line_graph;
 
