@@ -21,6 +21,8 @@ typedef struct {
     int drop_from_count; /* 1 + line that the count does not know */
     int move;            /* 1 + line that is displaced, points and vertices alike */
     double by;           /* relative, of the coordinate that is not given */
+    int only_q;          /* 1: that is q, where alpha is given */
+    int unbounded;       /* points have no bounds */
     int loose;           /* 1 + line whose vertices alone are displaced by that */
     double bound;        /* stated relative bound; 0: 1e-24 */
     int no_bounds;       /* vertices without bounds, as from double precision */
@@ -101,11 +103,13 @@ static void fake_make(cmp_line_point *out, const line_faults *f, int line, int b
     out->decided = CV_OK;
     fake_on_line(out, line, by_q, given, start);
     fake_mass(out, line);
-    if (f->move == line + 1)
+    if (f->move == line + 1 && !(f->only_q && by_q))
         fake_displace(by_q ? out->alpha : out->q, f->by);
     fake_set_error(&out->alpha_error, out->alpha, by_q ? bound : 0);
     fake_set_error(&out->q_error, out->q, by_q ? 0 : bound);
     fake_set_error(&out->eta_M_error, out->eta_M, bound);
+    if (f->unbounded)
+        *(by_q ? &out->alpha_error : &out->q_error) = out->eta_M_error = (double)NAN;
 }
 
 /* Coordinate and where the other one is about, of vertex i of n. */

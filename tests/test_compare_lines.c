@@ -106,6 +106,22 @@ START_TEST(a_branch_off_by_1e_15_disagrees)
 }
 END_TEST
 
+START_TEST(a_frequency_off_by_1e_15_disagrees)
+{
+    fake_line[1].move = 3;
+    fake_line[1].only_q = 1;
+    fake_line[1].by = 1e-15;
+    expect(CMP_DISAGREE, "q = ");
+}
+END_TEST
+
+START_TEST(points_without_bounds_never_agree)
+{
+    fake_line[0].unbounded = 1;
+    expect(CMP_DISAGREE, "nan");
+}
+END_TEST
+
 START_TEST(vertices_that_leave_their_own_line_disagree)
 {
     fake_line[0].loose = 3;
@@ -279,6 +295,8 @@ int main(void)
     tcase_add_test(t, faultless_methods_agree);
     tcase_add_test(t, a_missing_branch_disagrees);
     tcase_add_test(t, a_branch_off_by_1e_15_disagrees);
+    tcase_add_test(t, a_frequency_off_by_1e_15_disagrees);
+    tcase_add_test(t, points_without_bounds_never_agree);
     tcase_add_test(t, vertices_that_leave_their_own_line_disagree);
     tcase_add_test(t, vertices_in_double_precision_are_refined_first);
     tcase_add_test(t, wide_bounds_are_undecided);
