@@ -89,20 +89,25 @@ static void forget(sa_lines *lines)
     s->torn = 0;
 }
 
-/* One search of the map; what does not fit together is listed in lines. */
-static cv_status run_pass(sa_lines *lines, int refinement)
+/* A few seconds, and up to half a minute where Im zeta needs many digits everywhere. */
+static const sa_line_effort little = {150000, 8000}, much = {0, 100000};
+
+/* One search of the map; what does not fit together is listed in lines. *exhausted: 1 when it came to no end.
+ */
+static cv_status run_pass(int *exhausted, sa_lines *lines, int refinement, const sa_line_effort *effort)
 {
     sa_line_store *s = lines->store;
     sa_line_trace trace = {.map = &s->map, .plot = s->plot, .re_floor = s->re_floor};
     forget(lines);
-    cv_status status = sa_lines_trace(&trace, s->field, refinement);
-    s->torn = trace.place_count > 0 || status == CV_UNDECIDED;
+    cv_status status = sa_lines_trace(&trace, s->field, refinement, effort);
+    *exhausted = status == CV_UNDECIDED;
+    s->torn = trace.place_count > 0;
     if (status == CV_UNDECIDED)
         status = sa_lines_doubt(lines, s->map.curves.alpha_min, 0, "the search for lines came to no end");
-    if (status == CV_OK)
+    else if (status == CV_OK)
         status = sa_lines_chain(&s->line, &s->line_count, &s->samples, &trace);
     lines->line_count = s->line_count;
-    if (status == CV_OK)
+    if (status == CV_OK && !*exhausted)
         status = sa_lines_ends(lines);
     for (size_t i = 0; i < trace.place_count && status == CV_OK; ++i)
         status =
@@ -111,12 +116,38 @@ static cv_status run_pass(sa_lines *lines, int refinement)
     return status;
 }
 
+static cv_status set_floor(sa_line_store *s, double re_floor)
+{
+    sa_field_free(s->field);
+    s->re_floor = re_floor;
+    s->field = sa_field_new(&s->map, s->track, s->re_floor / 4);
+    return s->field != NULL ? CV_OK : CV_FAILED;
+}
+
+/* Where Re zeta is tiny, Im zeta may be tiny, too, and cost very many cells: then what is above the largest
+ * eta_M is left to sa_lines_ends. */
+static cv_status search(sa_lines *lines)
+{
+    const double factor = 100, margin = 0.3;
+    sa_line_store *s = lines->store;
+    int exhausted, last = 0;
+    cv_status status = run_pass(&exhausted, lines, 0, &little);
+    while (status == CV_OK && exhausted && !last) {
+        last = s->re_floor * factor > margin * s->plot.re_low;
+        status = set_floor(s, fmin(s->re_floor * factor, margin * s->plot.re_low));
+        if (status == CV_OK)
+            status = run_pass(&exhausted, lines, 0, last ? &much : &little);
+    }
+    return status;
+}
+
 static cv_status find(sa_lines *lines, int digits)
 {
     enum { PASSES = 3 };
-    cv_status status = run_pass(lines, 0);
+    int exhausted;
+    cv_status status = search(lines);
     for (int i = 1; i < PASSES && status == CV_OK && lines->store->torn; ++i)
-        status = run_pass(lines, i);
+        status = run_pass(&exhausted, lines, i, &much);
     return status == CV_OK ? sa_lines_cut(lines, digits) : status;
 }
 

@@ -180,7 +180,7 @@ static int fits(const sa_asymptote *a, const descent *d)
  * upset it: then only what is near and fits is joined. */
 static cv_status match(sa_lines *lines, const descent *d, size_t count)
 {
-    const double near = 1e-3;
+    const double near = 1e-3 + 3 * sqrt(lines->store->re_floor); /* q at the floor */
     const sa_asymptote_list *list = &lines->asymptotes;
     cv_status status = CV_OK;
     size_t next = 0;

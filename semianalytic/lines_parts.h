@@ -53,9 +53,14 @@ typedef struct {
     double (*place)[2];
 } sa_line_trace;
 
-/* All pieces; finer cells the larger "refinement". trace must be zero but for map, plot and re_floor; clear
- * it on any status. CV_UNDECIDED: the search came to no end. */
-cv_status sa_lines_trace(sa_line_trace *trace, sa_field *field, int refinement);
+/* Limits of a search, as in sa_search */
+typedef struct {
+    unsigned long cells, beyond_double;
+} sa_line_effort;
+
+/* All pieces; finer cells the larger "refinement", within the effort. trace must be zero but for map, plot
+ * and re_floor; clear it on any status. CV_UNDECIDED: the search came to no end. */
+cv_status sa_lines_trace(sa_line_trace *trace, sa_field *field, int refinement, const sa_line_effort *effort);
 void sa_line_trace_clear(sa_line_trace *trace);
 cv_status sa_line_place_add(double (**place)[2], size_t *count, double alpha, double q);
 

@@ -332,12 +332,14 @@ static cv_status on_unresolved(void *context, const sa_sample *centre, double re
     return sa_line_place_add(&trace->place, &trace->place_count, centre->alpha, centre->q);
 }
 
-cv_status sa_lines_trace(sa_line_trace *trace, sa_field *field, int refinement)
+cv_status sa_lines_trace(sa_line_trace *trace, sa_field *field, int refinement, const sa_line_effort *effort)
 {
     sa_search search = {.re_low = trace->re_floor,
                         .re_high = INFINITY,
                         .tolerance = 0.25,
                         .largest_cell = 2.5,
+                        .cells = effort->cells,
+                        .beyond_double = effort->beyond_double,
                         .context = trace,
                         .segment = on_segment,
                         .unresolved = on_unresolved};

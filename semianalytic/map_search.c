@@ -8,7 +8,7 @@ typedef struct {
     const sa_search *search;
     double extent_u, extent_t; /* of the block, natural logarithms */
     sa_segment block;          /* without ends */
-    unsigned long cells;
+    unsigned long cells, most_cells, beyond_before;
 } search_state;
 
 typedef struct {
@@ -195,11 +195,17 @@ static cv_status give_up(const search_state *st, const cell_data *d)
     return st->search->unresolved(st->search->context, &d->s[4], range);
 }
 
+static int too_expensive(const search_state *st)
+{
+    unsigned long most = st->search->beyond_double;
+    return most > 0 && sa_field_counts(st->field).beyond_double - st->beyond_before > most;
+}
+
 static cv_status search_cell(search_state *st, cell c)
 {
     const double smallest = 1e-9;
     cell_data d;
-    if (++st->cells > SA_MAP_CELLS_MAX)
+    if (++st->cells > st->most_cells || too_expensive(st))
         return CV_UNDECIDED;
     cv_status status = sample_cell(&d, st->field, &c);
     if (status != CV_OK || dismissed(&d, &c, st) || (excess(st, &c) <= 1 && simple(&status, st, &d)))
@@ -257,6 +263,8 @@ static cv_status search_block(search_state *st, size_t column, int side_u, int s
 cv_status sa_map_search(const sa_map *map, sa_field *field, const sa_search *search)
 {
     search_state st = {.map = map, .field = field, .search = search};
+    st.beyond_before = sa_field_counts(field).beyond_double;
+    st.most_cells = search->cells > 0 ? search->cells : SA_MAP_CELLS_MAX;
     cv_status status = CV_OK;
     for (size_t i = 0; i < 2 * map->count; ++i) { /* one side of a column after the other: nodes are kept */
         int strips = map->column[i / 2].closed ? 0 : map->column[i / 2].count + 1;

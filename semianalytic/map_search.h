@@ -18,9 +18,11 @@ typedef struct {
 } sa_segment;
 
 typedef struct {
-    double re_low, re_high; /* only lines with Re zeta between these matter */
-    double tolerance;       /* of sa_cell_one_signed */
-    double largest_cell;    /* size of the first cells, natural logarithms of distance */
+    double re_low, re_high;      /* only lines with Re zeta between these matter */
+    double tolerance;            /* of sa_cell_one_signed */
+    double largest_cell;         /* size of the first cells, natural logarithms of distance */
+    unsigned long cells;         /* at most; 0: SA_MAP_CELLS_MAX */
+    unsigned long beyond_double; /* evaluations of the field in more than double, at most; 0: any number */
     void *context;
     /* Called for each segment, in no particular order; field is set to its block. */
     cv_status (*segment)(void *context, sa_field *field, const sa_segment *segment);
@@ -32,8 +34,8 @@ typedef struct {
 /* Subdivides every block until the lines in each cell are simple. What is left out is certain as far as Im
  * zeta and Re zeta are smooth in the coordinates of map.h on the scale of the first cells; the count of
  * unstable roots between the transitions (transitions.h) is the check. CV_UNDECIDED: more than
- * SA_MAP_CELLS_MAX cells, or a point where no precision gives zeta. Ends with the first status of a callback
- * that is not CV_OK. */
+ * search->cells cells or search->beyond_double evaluations, or a point where no precision gives zeta. Ends
+ * with the first status of a callback that is not CV_OK. */
 enum { SA_MAP_CELLS_MAX = 500000 };
 cv_status sa_map_search(const sa_map *map, sa_field *field, const sa_search *search);
 
