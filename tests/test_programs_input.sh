@@ -149,6 +149,28 @@ refuse "no case file" "no file"
 refuse "threads" "no threads" "$file" --threads 0
 refuse "threads" "threads that are not a number" "$file" --threads 2x
 
+# Ranges, and what only some commands take.
+refuse_lines() {
+    pattern=$1
+    description=$2
+    shift 2
+    "$build/critvel-semianalytic" lines "$file" "$@" >"$folder/out" 2>"$folder/err"
+    status=$?
+    expect 2 "$pattern" "lines, $description"
+}
+refuse_lines "alpha.*range" "one velocity" --alpha 0.3
+refuse_lines "mass-ratio.*range" "one mass" --mass-ratio 10
+refuse_lines "alpha" "reversed range" --alpha 0.9:0.3
+refuse_lines "alpha" "empty end of a range" --alpha 0.3:
+refuse_lines "mass-ratio" "range from zero" --mass-ratio 0:10
+refuse_lines "mass ratios" "masses beyond the search" --mass-ratio 1:1e11
+refuse_lines "format" "unknown format" --format xml
+refuse_lines "given twice" "range twice" --alpha 0.1:0.2 --alpha 0.1:0.3
+programs=semianalytic
+refuse "csv" "csv of one point" "$file" --format csv
+refuse "output" "--output of one point" "$file" --output "$folder/point"
+programs=compare
+
 # What the system refuses is status 3.
 fails() {
     description=$1
@@ -175,6 +197,7 @@ for program in compare dgreen lines semianalytic; do
 done
 fails "output in a folder that is not there" compare "$file" --output "$folder/none/report"
 fails "output onto a directory" compare "$file" --output "$folder"
+fails "lines into a folder that is not there" "$build/critvel-semianalytic" lines "$file" --output "$folder/none/l"
 fails "output onto a full disk" compare "$file" --output /dev/full
 fails "lines, output in a folder that is not there" lines "$file" --output "$folder/none/report"
 fails "lines, output onto a directory" lines "$file" --output "$folder"
