@@ -11,7 +11,7 @@ static const double DIP_CLEARANCE = 0.85;
 static const double KINK = 3;
 /* Im zeta counts as smooth at a node when the cubic through its four neighbours, as a function of the
  * position, misses it by less than this part of its value. */
-static const double SMOOTH = 0.25;
+static const double SMOOTH = 0.15;
 /* cos of the largest turning of the polyline that is accepted next to the real axis: 60 degrees */
 static const double COS_TURN = 0.5;
 /* Part of the interval below which the doubles end */

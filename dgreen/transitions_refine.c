@@ -224,8 +224,8 @@ static void report(dg_transition *out, refiner *r)
         middle(across ? out->alpha : out->frequency, o->trial.aside_low, o->trial.aside_high);
 }
 
-cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track, const dg_find *find,
-                    const cv_number *mass_ratio, int digits)
+static cv_status refine(dg_transition *out, dg_effort *effort, const dg_track *track, const dg_find *find,
+                        const cv_number *mass_ratio, int digits)
 {
     refiner r;
     refiner_init(&r, track, effort, find, mass_ratio, digits);
@@ -245,4 +245,15 @@ cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track
     out->decided = status;
     refiner_clear(&r);
     return status;
+}
+
+cv_status dg_refine(dg_transition *out, dg_effort *effort, const dg_track *track, const dg_find *find,
+                    const cv_number *mass_ratio, int digits)
+{
+    const cv_status status = refine(out, effort, track, find, mass_ratio, digits);
+    if (status != CV_UNDECIDED)
+        return status;
+    dg_find other = *find; /* a fold nearer than the brackets are wide, or none */
+    other.across = !find->across;
+    return refine(out, effort, track, &other, mass_ratio, digits);
 }

@@ -5,8 +5,8 @@
 
 /* Steps of at most this part of alpha and of the range, and this many per decade of the distance from a
  * special velocity, down to this part of its width. */
-static const double RELATIVE_STEP = 0.015, RANGE_STEP = 0.005, FIRST = 0.3;
-enum { PER_DECADE = 2 };
+static const double RELATIVE_STEP = 0.01, RANGE_STEP = 0.0035, FIRST = 0.3;
+enum { PER_DECADE = 3 };
 
 static cv_status push(dg_velocities *v, double alpha, cv_message *why)
 {
