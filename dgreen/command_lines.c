@@ -93,11 +93,11 @@ static int write_line(const dg_line *l, size_t number, FILE *out)
 static cv_status write_text(const answer *a, FILE *out)
 {
     const dg_lines *l = &a->lines;
-    int length =
-        fprintf(out,
-                "%zu lines for %.12g <= alpha <= %.12g, %.12g <= eta_M <= %.12g; two more roots are unstable "
-                "on the left of each, alpha to the right, eta_M upwards\n",
-                l->count, l->alpha_min, l->alpha_max, l->mass_min, l->mass_max);
+    int length = fprintf(
+        out,
+        "%zu line%s for %.12g <= alpha <= %.12g, %.12g <= eta_M <= %.12g; two more roots are unstable "
+        "on the left of each, alpha to the right, eta_M upwards\n",
+        l->count, l->count == 1 ? "" : "s", l->alpha_min, l->alpha_max, l->mass_min, l->mass_max);
     for (size_t i = 0; i < l->count && length >= 0; i++)
         length = write_line(&l->lines[i], i + 1, out);
     if (length >= 0)

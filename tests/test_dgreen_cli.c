@@ -158,7 +158,7 @@ START_TEST(lines)
     ck_assert_double_eq_tol(csv[1], q, 1e-14);
     ck_assert_double_eq_tol(csv[2], mass, 1e-9);
     ck_assert_int_eq(run("lines FILE"), 0);
-    ck_assert_ptr_nonnull(strstr(output, "1 lines for 0.1 <= alpha <= 0.2"));
+    ck_assert_ptr_nonnull(strstr(output, "1 line for 0.1 <= alpha <= 0.2"));
     char command[200];
     snprintf(command, sizeof command, "lines FILE --format json --output %s/out", folder);
     ck_assert_int_eq(run(command), 0);

@@ -177,7 +177,9 @@ START_TEST(grids)
     ck_assert(dg_grid_logarithmic(&g, 3) == 1000);
     ck_assert_int_eq(dg_grid_parse(&g, "0.5", NULL), CV_OK);
     ck_assert_int_eq(g.count, 1);
-    const char *wrong[] = {"",     "a",     "1:2",   "1:2:1",   "1:2:x",     "1:2:3x", "1:2:",
+    ck_assert_int_eq(dg_grid_parse(&g, "0.1:0.7", NULL), CV_OK); /* a range */
+    ck_assert_int_eq(g.count, 0);
+    const char *wrong[] = {"",     "a",     "2:1",   "1:2:1",   "1:2:x",     "1:2:3x", "1:2:",
                            ":2:3", "2:1:3", "1:1:3", "1:2:3:4", "1:2:10001", "1:2:-3", "1::3"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         ck_assert_msg(dg_grid_parse(&g, wrong[i], NULL) == CV_BAD_INPUT, "%s", wrong[i]);
