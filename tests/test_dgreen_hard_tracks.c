@@ -20,19 +20,19 @@ typedef struct {
 static const hard
     /* A wide bend of a wave's group velocity once left a gap in the frequencies, with two zeros of Im zeta in
        it */
-        wide = {{"2.25371", "35.7773", "0.156647", "0.122019", "7.343", "-0.0254933"},
-                {"1e-8", "1e-8", "1e-8"},
-                2,
-                {"30", "300"}},
-        unequal = {{"4.13", "17.6", "1.42", "22.9", "0", "-0.0211"},
-                   {"1.63e-4", "2.62e-9", "5.47e-9"},
-                   2,
-                   {"300", "1000"}},
-        strong = {{"1.207375", "10.70275", ".7611525", ".1158521", ".2734375", ".1584033"},
-                  {"0.2", "0.2", "0.2"},
-                  3,
-                  {"3", "30", "300"}},
-        /* A transition within 1e-15 of the fold where its crossing of the real axis dies */
+    wide = {{"2.25371", "35.7773", "0.156647", "0.122019", "7.343", "-0.0254933"},
+            {"1e-8", "1e-8", "1e-8"},
+            2,
+            {"30", "300"}},
+    unequal = {{"4.13", "17.6", "1.42", "22.9", "0", "-0.0211"},
+               {"1.63e-4", "2.62e-9", "5.47e-9"},
+               2,
+               {"300", "1000"}},
+    strong = {{"1.207375", "10.70275", ".7611525", ".1158521", ".2734375", ".1584033"},
+              {"0.2", "0.2", "0.2"},
+              3,
+              {"3", "30", "300"}},
+    /* A transition within 1e-15 of the fold where its crossing of the real axis dies */
     folded = {{"4.31406", "17.0606", "2.23646", "4698.24", "19.0667", "-0.170781"},
               {"1e-10", "1e-10", "1e-10"},
               1,
@@ -104,6 +104,18 @@ static double misfit(const search *s, size_t k, const dg_transition *x)
     return result;
 }
 
+/* |x - text| */
+static double distance(mpfr_srcptr x, const char *text)
+{
+    mpfr_t d;
+    mpfr_init2(d, 200);
+    ck_assert_int_eq(mpfr_set_str(d, text, 10, MPFR_RNDN), 0);
+    mpfr_sub(d, d, x, MPFR_RNDN);
+    const double result = fabs(mpfr_get_d(d, MPFR_RNDU));
+    mpfr_clear(d);
+    return result;
+}
+
 static int counted(dg_counter *c, const search *s, size_t k, double alpha)
 {
     size_t failed;
@@ -159,6 +171,26 @@ START_TEST(counts_by_two_routes)
 }
 END_TEST
 
+/* The list between 0.5 and 0.56 is that of tests/reference/transitions.c (ball arithmetic of Arb 2.23, proved
+ * by interval Newton), where the pair of zeros was overlooked. */
+START_TEST(referee_agrees)
+{
+    static const char *const alpha[] = {"0.505690073926545211464466603027",
+                                        "0.539410315586193868612144717553"};
+    static const char *const q[] = {"0.036037150161680352851045268237", "0.035514444615167668438862025291"};
+    search s;
+    search_run(&s, &wide, "0.5", "0.56", 0);
+    const dg_transition_list *list = &s.lists[1];
+    ck_assert_int_eq(list->count_at_min, 2);
+    ck_assert_uint_eq(list->count, 2);
+    for (int i = 0; i < 2; i++) {
+        ck_assert_double_le(distance(list->items[i].alpha, alpha[i]), list->items[i].alpha_error + 1e-30);
+        ck_assert_double_le(distance(list->items[i].frequency, q[i]), list->items[i].frequency_error + 1e-30);
+    }
+    search_clear(&s);
+}
+END_TEST
+
 /* Two unstable roots between the transitions, none on both sides, one step of doubles beyond the fold. */
 START_TEST(fold_between_doubles)
 {
@@ -209,6 +241,7 @@ int main(void)
     TCase *c = tcase_create("hard tracks");
     tcase_set_timeout(c, 240);
     tcase_add_test(c, counts_by_two_routes);
+    tcase_add_test(c, referee_agrees);
     tcase_add_test(c, fold_between_doubles);
     tcase_add_test(c, closer_look_agrees);
     suite_add_tcase(suite, c);
