@@ -282,6 +282,9 @@ START_TEST(slopes_that_lie)
         fill_cell(&v, waves, (const double[]){-0.4, 0.3}, along);
         ck_assert(!sa_cell_steady(&v, axis));
         ck_assert(!sa_cell_steady(&v, 1 - axis)); /* constant */
+        fill_cell(&v, waves, (const double[]){-0.4, 0}, along);
+        v.f[4] += 0.4;
+        ck_assert(!sa_cell_steady(&v, axis));
     }
     ck_assert(sa_slopes_fit(1, 0.8, 1.3) && sa_slopes_fit(-1, -0.8, -1.3) && sa_slopes_fit(1, 1, 1));
     ck_assert(!sa_slopes_fit(-1, 0.8, 1.3) && !sa_slopes_fit(1, 2, 3) && !sa_slopes_fit(1, 0.1, 0.2) &&
