@@ -185,6 +185,33 @@ static void check_field(surface *s, size_t column, int side_u, int strip, int si
     sa_field_free(field);
 }
 
+/* The sign at a corner is certain also where double precision does not tell it. */
+static void check_sign(surface *s, size_t column, int side_u, int strip, int side_t, gsl_rng *rng)
+{
+    sa_field *field = sa_field_new(&s->map, s->track, -INFINITY);
+    sa_field_block(field, column, side_u, strip, side_t);
+    for (int i = 0; i < 8; i++) {
+        sa_sample at;
+        ck_assert_int_eq(sa_field_corner(&at, field, gsl_rng_uniform(rng), gsl_rng_uniform(rng)), CV_OK);
+        ck_assert_double_le(at.im_error, 0.1 * fabs(at.im));
+        ck_assert_double_le(at.re_error, 0.011 * fabs(at.re));
+    }
+    sa_field_free(field);
+}
+
+START_TEST(signs_at_low_damping)
+{
+    gsl_rng *rng = random_start("signs", 9);
+    for (int i = 3; i < FIXED; i += 2) {
+        surface s;
+        surface_start(&s, fixed_track[i], "1e-10");
+        every_block(&s, check_sign, rng);
+        surface_end(&s);
+    }
+    gsl_rng_free(rng);
+}
+END_TEST
+
 START_TEST(zeta_on_the_map)
 {
     gsl_rng *rng = random_start("field", 5);
@@ -233,6 +260,10 @@ START_TEST(cells_without_zeros)
         sa_cell_values v;
         fill_cell(&v, power_law, p, (const double[]){gsl_rng_uniform(rng), gsl_rng_uniform(rng)});
         ck_assert(sa_cell_one_signed(roughness, &v, 1e-6, 6));
+        v.f[4] *= 1.5;
+        v.f_u[4] *= 1.5;
+        v.f_t[4] *= 1.5;
+        ck_assert(!sa_cell_one_signed(roughness, &v, 0.25, 6)); /* slopes of log |f| as before */
     }
     gsl_rng_free(rng);
 }
@@ -301,6 +332,7 @@ int main(void)
     tcase_add_test(tests, derivatives_of_the_coordinates);
     tcase_add_test(tests, blocks_cover_the_plane);
     tcase_add_test(tests, zeta_on_the_map);
+    tcase_add_test(tests, signs_at_low_damping);
     tcase_add_test(tests, cells_without_zeros);
     tcase_add_test(tests, cells_with_hidden_zeros);
     tcase_add_test(tests, slopes_that_lie);
