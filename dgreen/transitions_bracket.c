@@ -36,7 +36,7 @@ void dg_bracket_clear(dg_bracket *b)
 
 cv_status dg_bracket_open(dg_bracket *b, mpfr_srcptr centre, double half, double most)
 {
-    for (; half <= most; half *= 16) {
+    for (; half <= most; half *= 4) {
         mpfr_sub_d(b->low.at, centre, half, RND);
         mpfr_add_d(b->high.at, centre, half, RND);
         cv_status status = b->function(&b->low, b->context);

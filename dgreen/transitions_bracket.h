@@ -28,7 +28,7 @@ typedef struct {
 void dg_bracket_init(dg_bracket *b, mpfr_prec_t precision, dg_certified *function, void *context);
 void dg_bracket_clear(dg_bracket *b);
 
-/* Brackets [centre - half, centre + half], growing by factors of 16 until the signs differ; half at most
+/* Brackets [centre - half, centre + half], growing by factors of 4 until the signs differ; half at most
  * "most". CV_UNDECIDED: they do not. */
 cv_status dg_bracket_open(dg_bracket *b, mpfr_srcptr centre, double half, double most);
 
