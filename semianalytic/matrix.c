@@ -187,6 +187,13 @@ static void slope_along(double complex *p_t, double complex *residue_t, const sa
     *residue_t = (dw[SA_RAIL] - m->w[SA_RAIL] / m->det_p * ddet_p) / m->det_p;
 }
 
+/* A pole runs to infinity next to the shear speed. By the time its slopes overflow, at |p| ~ 1e20, its
+ * residue, a sum of terms below p^-7, has no share in zeta or in the slopes of zeta. */
+static double complex unless_overflown(double complex slope)
+{
+    return isfinite(creal(slope)) && isfinite(cimag(slope)) ? slope : 0;
+}
+
 void sa_matrix_slopes(sa_slopes *out, const sa_point *m, const sa_track *t, double alpha)
 {
     const double complex *w = m->w;
@@ -197,6 +204,9 @@ void sa_matrix_slopes(sa_slopes *out, const sa_point *m, const sa_track *t, doub
     slope_along(&out->p_q, &out->residue_q, m, t, alpha, slope, CMPLX(0, 1), 0);
     slope_along(&out->p_alpha, &out->residue_alpha, m, t, alpha, slope, CMPLX(cimag(m->p), -creal(m->p)),
                 CMPLX(0, -1));
+    out->residue = unless_overflown(out->residue);
+    out->residue_q = unless_overflown(out->residue_q);
+    out->residue_alpha = unless_overflown(out->residue_alpha);
 }
 
 /* s = i (q - alpha p), alpha and q exact */

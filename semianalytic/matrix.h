@@ -47,7 +47,7 @@ typedef struct {
 void sa_matrix_point(sa_point *m, const sa_track *t, double alpha, double complex q, double complex p);
 
 /* First order of a pole p(alpha, q) and of its residue d2/d3' along q and along alpha; m is the matrix at the
- * pole. */
+ * pole. Of a pole so far out that they overflow (|p| ~ 1e20), those of the residue are 0. */
 typedef struct {
     double complex residue, p_q, p_alpha, residue_q, residue_alpha;
 } sa_slopes;

@@ -258,6 +258,22 @@ START_TEST(zeta_is_smooth_where_a_pole_is_infinite)
 }
 END_TEST
 
+/* Nor do its slopes, at the double that is closest to the shear velocity, sqrt(eta_s/mu_b), where the pole is
+ * so far out that powers of it overflow. */
+START_TEST(slopes_do_not_notice_a_pole_near_infinity)
+{
+    const char *const values[6] = {"4.95316", "41.4494", "27722.1", "0.642198", "1.64727", "0"};
+    const double closest = 0.19935322713286363, q = 2905;
+    sa_track *t = make_track(values, "0.05");
+    sa_value at, v;
+    ck_assert_int_eq(sa_zeta_adaptive(&at, sweep, t, closest * (1 + 1e-10), q, 1e-10), CV_OK);
+    ck_assert_int_eq(sa_zeta_adaptive(&v, sweep, t, closest, q, 1e-15), CV_OK);
+    ck_assert_double_le(cabs(v.d_q - at.d_q), 1e-8 * cabs(at.d_q));
+    ck_assert_double_le(cabs(v.d_alpha - at.d_alpha), 1e-8 * cabs(at.d_alpha));
+    sa_track_free(t);
+}
+END_TEST
+
 START_TEST(adaptive_reaches_its_tolerance)
 {
     cv_params p;
@@ -312,6 +328,7 @@ int main(void)
     tcase_add_test(tests, slopes_are_those_of_differences);
     tcase_add_test(tests, complex_frequencies_obey_the_mean_value);
     tcase_add_test(tests, zeta_is_smooth_where_a_pole_is_infinite);
+    tcase_add_test(tests, slopes_do_not_notice_a_pole_near_infinity);
     tcase_add_test(tests, adaptive_reaches_its_tolerance);
     tcase_add_test(tests, impossible_points_are_refused);
     suite_add_tcase(suite, tests);
