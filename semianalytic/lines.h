@@ -128,8 +128,8 @@ cv_status sa_lines_find(sa_lines *out, const cv_params *params, const sa_lines_r
 void sa_lines_clear(sa_lines *lines);
 
 /* N(alpha, eta_M) by the lines: 2 (those that pass alpha below eta_M towards larger alpha, minus those
- * towards smaller alpha). CV_UNDECIDED: a line passes the point within double precision, or lines are
- * undecided; always without damping, where lines end. CV_BAD_INPUT: alpha outside the range, eta_M not
+ * towards smaller alpha). CV_UNDECIDED: a line passes or turns at the point within double precision, or lines
+ * are undecided; always without damping, where lines end. CV_BAD_INPUT: alpha outside the range, eta_M not
  * positive or above SA_LINES_MASS_MAX. */
 cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why);
 

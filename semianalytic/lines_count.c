@@ -106,6 +106,29 @@ static int passes_below(const passage *p, sa_line_store *store, double level)
     return re > level;
 }
 
+/* Whether the line may turn beyond sample b, whose alpha is the extreme one of three, so far that it passes
+ * alpha twice there, on different sides of the level. Room for samples at uneven distances along the line. */
+static int fold_may_pass(const sa_line_sample *a, const sa_line_sample *b, const sa_line_sample *c,
+                         double alpha, double level)
+{
+    const double clear = 3, room = 4;
+    double before = b->alpha - a->alpha, after = c->alpha - b->alpha;
+    double reach = room * fmax(fabs(before), fabs(after)) + 1e-15 * alpha;
+    double low = fmin(a->re, fmin(b->re, c->re)), high = fmax(a->re, fmax(b->re, c->re));
+    return before * after <= 0 && !(fabs(alpha - b->alpha) > reach) && !(low > clear * level) &&
+           !(high < level / clear);
+}
+
+/* The same for every sample of a line with two neighbours. */
+static int folds_may_pass(const sa_line *line, const sa_line_sample *s, double alpha, double level)
+{
+    size_t n = line->count;
+    for (size_t k = line->closed ? 0 : 1; n > 2 && k + (line->closed ? 0 : 1) < n; ++k)
+        if (fold_may_pass(&s[(k + n - 1) % n], &s[k], &s[(k + 1) % n], alpha, level))
+            return 1;
+    return 0;
+}
+
 cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why)
 {
     sa_line_store *store = lines->store;
@@ -117,6 +140,9 @@ cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M
     for (size_t i = 0; i < lines->line_count; ++i) {
         const sa_line *line = &store->line[i];
         const sa_line_sample *s = &store->samples.item[line->first];
+        if (folds_may_pass(line, s, alpha, 1 / eta_M))
+            return cv_fail(why, CV_UNDECIDED, "a line turns at alpha = %.15g near eta_M = %.15g", alpha,
+                           eta_M);
         for (size_t k = 0; k + 1 < line->count + (size_t)line->closed; ++k) {
             const passage p = {&s[k], &s[(k + 1) % line->count], alpha};
             if ((p.a->alpha <= alpha) == (p.b->alpha <= alpha))
