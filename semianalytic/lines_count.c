@@ -137,6 +137,8 @@ cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M
         return cv_fail(why, CV_BAD_INPUT, "alpha = %.15g is outside the range of the lines", alpha);
     if (!(eta_M > 0 && eta_M <= SA_LINES_MASS_MAX))
         return cv_fail(why, CV_BAD_INPUT, "eta_M must be above 0 and at most %g", SA_LINES_MASS_MAX);
+    /* lines that end at the upper end of the range pass below it */
+    alpha = fmin(alpha, nextafter(store->map.curves.alpha_max, 0));
     for (size_t i = 0; i < lines->line_count; ++i) {
         const sa_line *line = &store->line[i];
         const sa_line_sample *s = &store->samples.item[line->first];
