@@ -143,8 +143,9 @@ static int within(mpfr_srcptr claimed, mpfr_srcptr found, double bound)
 }
 
 /* What a vertex claims against the point of its own method at the same coordinate: within its bounds where
- * that coordinate is exact, else not far off. A mass without a bound is left to the distance of the
- * polylines: it may change with alpha and q faster than doubles resolve. */
+ * that coordinate is exact, else not far off; undecided where the method does not vouch for it. A mass
+ * without a bound is left to the distance of the polylines: it may change with alpha and q faster than
+ * doubles resolve. */
 static void judge_vertex(const judge *j, int m, int by_q, const cmp_line_point *vertex,
                          const cmp_line_point *own)
 {
@@ -153,7 +154,7 @@ static void judge_vertex(const judge *j, int m, int by_q, const cmp_line_point *
     const double mass_bound = exact ? vertex->eta_M_error + own->eta_M_error : (double)NAN;
     if (!within(by_q ? vertex->alpha : vertex->q, by_q ? own->alpha : own->q, bound) ||
         !(isnan(vertex->eta_M_error) || within(vertex->eta_M, own->eta_M, mass_bound)))
-        cmp_verdict_worsen(&j->pair->verdict, CMP_DISAGREE,
+        cmp_verdict_worsen(&j->pair->verdict, vertex->decided == CV_OK ? CMP_DISAGREE : CMP_UNDECIDED,
                            "the vertex of %s at alpha = %.15g, q = %.15g is not on its line",
                            j->methods[m]->name, mpfr_get_d(vertex->alpha, MPFR_RNDN),
                            mpfr_get_d(vertex->q, MPFR_RNDN));

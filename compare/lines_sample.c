@@ -88,7 +88,8 @@ static size_t passages(double *mass, const cmp_branches *list, double alpha)
             if ((a <= alpha) == (b <= alpha))
                 continue;
             const double part = (alpha - a) / (b - a);
-            mass[n++] = value(v[0].eta_M) * pow(value(v[1].eta_M) / value(v[0].eta_M), part);
+            mass[n] = value(v[0].eta_M) * pow(value(v[1].eta_M) / value(v[0].eta_M), part);
+            n += isfinite(mass[n]) != 0; /* an undecided vertex may have no mass */
         }
     return n;
 }
