@@ -94,8 +94,10 @@ static void judge(cmp_root_row *row, trial *t, const cmp_root *r, const char *cl
 
 static mpfr_prec_t bits_for(const cmp_root *r)
 {
-    const mpfr_exp_t size =
-        mpfr_get_exp(r->re) > mpfr_get_exp(r->im) ? mpfr_get_exp(r->re) : mpfr_get_exp(r->im);
+    /* Im qbar = 0 for real roots */
+    const mpfr_exp_t size = mpfr_zero_p(r->im) || mpfr_get_exp(r->re) > mpfr_get_exp(r->im)
+                                ? mpfr_get_exp(r->re)
+                                : mpfr_get_exp(r->im);
     const mpfr_exp_t claimed = size - mpfr_get_exp(r->error) + 1;
     const mpfr_prec_t wanted = (claimed > 0 ? claimed : 0) + GUARD_BITS;
     mpfr_prec_t held = mpfr_get_prec(r->re);
@@ -105,7 +107,7 @@ static mpfr_prec_t bits_for(const cmp_root *r)
 
 static int measurable(const cmp_root *r)
 {
-    return mpfr_regular_p(r->re) && mpfr_regular_p(r->im) && mpfr_regular_p(r->error);
+    return mpfr_regular_p(r->re) && mpfr_number_p(r->im) && mpfr_regular_p(r->error);
 }
 
 static cv_status put_back(cmp_root_row *row, const cmp_root *r, const char *claimant,

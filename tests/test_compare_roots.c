@@ -354,6 +354,8 @@ START_TEST(the_real_methods_agree_and_report_it)
     ck_assert_msg(roots.verdict.kind == CMP_AGREE, "%s", roots.verdict.reason.text);
     ck_assert_double_ge(roots.verdict.digits, 30.0);
     ck_assert_uint_ge(roots.count, 1);
+    for (size_t i = 0; i < roots.count; i++) /* all were put back, real ones too */
+        ck_assert_double_gt(roots.rows[i].used, 0.0);
     cv_selection selection;
     cv_selection_init(&selection);
     cv_number_set(&selection.alpha.value, &alpha);
