@@ -162,26 +162,65 @@ static cv_status branch_point_of(sa_branch_point *out, const sa_map *map, double
  * of -(q - alpha p), Re zeta on the other side. Where Im zeta at the rim of the gap has the other sign there,
  * it vanishes on the way, at a distance that double does not resolve, with Re zeta as at the rim (the
  * singular part is imaginary on this side); where the signs on the two sides of the curve differ, zeta
- * crosses at infinity. */
-static cv_status limit_crossings(const scan *below, const scan *above, const sa_map *map, double q)
+ * crosses at infinity. rim: the side of the waves, the other. */
+static cv_status rim_crossings(sa_crossings *out, const sa_sample rim[2], const sa_branch_point *point)
 {
     const double smooth = 1e-5;
-    sa_sample s[2]; /* the side of the waves, the other */
+    int up = point->curvature > 0, sign = -point->sign, reaches = up ? -sign : sign;
+    cv_status status = CV_OK;
+    if ((rim[0].im > 0) != (sign > 0))
+        status = append(out, (sa_crossing){.q = point->q,
+                                           .re = rim[0].re,
+                                           .re_error = rim[0].re_error + smooth * fabs(rim[0].re),
+                                           .direction = (rim[0].im > 0) == up ? -1 : 1});
+    if (status == CV_OK && (rim[1].im > 0) != (sign > 0) && reaches > 0)
+        status = append(
+            out, (sa_crossing){.q = point->q, .re = INFINITY, .direction = (rim[1].im > 0) == up ? 1 : -1});
+    return status;
+}
+
+static cv_status limit_crossings(const scan *below, const scan *above, const sa_map *map, double q)
+{
+    sa_sample rim[2];
     sa_branch_point point;
     cv_status status = branch_point_of(&point, map, below->node->alpha, q);
-    int up = point.curvature > 0, sign = -point.sign, reaches = up ? -sign : sign;
+    int up = point.curvature > 0;
     if (status == CV_OK)
-        status = sample(&s[0], up ? above : below, 0);
+        status = sample(&rim[0], up ? above : below, 0);
     if (status == CV_OK)
-        status = sample(&s[1], up ? below : above, 0);
-    if (status == CV_OK && (s[0].im > 0) != (sign > 0))
-        status = append(below->out, (sa_crossing){.q = q,
-                                                  .re = s[0].re,
-                                                  .re_error = s[0].re_error + smooth * fabs(s[0].re),
-                                                  .direction = (s[0].im > 0) == up ? -1 : 1});
-    if (status == CV_OK && (s[1].im > 0) != (sign > 0) && reaches > 0)
-        status = append(below->out,
-                        (sa_crossing){.q = q, .re = INFINITY, .direction = (s[1].im > 0) == up ? 1 : -1});
+        status = sample(&rim[1], up ? below : above, 0);
+    return status == CV_OK ? rim_crossings(below->out, rim, &point) : status;
+}
+
+static int is_curve(const sa_map_node *node, double q)
+{
+    for (int i = 1; i < node->count - 1; ++i)
+        if (fabs(node->q[i] - q) <= 1e-15 * (1 + q))
+            return 1;
+    return 0;
+}
+
+/* Curves whose waves move the rail so little that the map leaves them out (sa_map_negligible): zeta is the
+ * same on either side. */
+static cv_status hidden_crossings(const sa_map_node *node, const sa_map *map, sa_field *field,
+                                  sa_crossings *out)
+{
+    const double beside = 1e-9;
+    sa_branch_point point[SA_MAP_CURVES_MAX];
+    int n = sa_branch_points(point, SA_MAP_CURVES_MAX, &map->curves, node->alpha);
+    cv_status status = n < 0 || n > SA_MAP_CURVES_MAX ? CV_FAILED : CV_OK;
+    for (int i = 0; i < n && status == CV_OK; ++i) {
+        sa_sample rim[2];
+        scan sc = {.node = node, .field = field, .out = out};
+        double t, q = point[i].q * (1 + beside);
+        if (!isfinite(point[i].p) || is_curve(node, point[i].q))
+            continue;
+        sa_map_locate(&sc.strip, &sc.side, &t, node, q);
+        status = sample(&rim[0], &sc, t);
+        rim[1] = rim[0];
+        if (status == CV_OK)
+            status = rim_crossings(out, rim, &point[i]);
+    }
     return status;
 }
 
@@ -196,7 +235,7 @@ static cv_status scan_gaps(const sa_map_node *node, const sa_map *map, sa_field 
         else if (node->gap[curve] > 0)
             status = gap_crossing(&below, &above);
     }
-    return status;
+    return status == CV_OK && map->undamped ? hidden_crossings(node, map, field, out) : status;
 }
 
 cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,

@@ -25,11 +25,16 @@ static double limited(double slope, double limit)
     return fmin(fmax(slope, -limit), limit);
 }
 
+double sa_map_gap(double q)
+{
+    return 1e-12 * (1 + q);
+}
+
 /* Where the damping is below what doubles resolve, the curve keeps a distance: zeta is then so large that
  * nothing of interest is nearer. Falls to zero, with its slope, as the damping grows. */
 static void place_gap(sa_map_node *node, int i, const sa_map *map, double damping, double damping_slope)
 {
-    const double relative = map->undamped ? 2e-12 : 2e-13;
+    const double damped = 2e-13, relative = map->undamped ? 2 * sa_map_gap(0) : damped;
     double resolved = relative * (1 + node->q[i]), slope = relative * limited(node->slope[i], 1e5);
     double x = damping / resolved, y = 1 - x * x;
     node->gap[i] = x < 1 ? resolved / 2 * y * y : 0;
@@ -176,6 +181,17 @@ void sa_map_point_at(sa_map_point *out, const sa_map_node *node, int strip, int 
     out->q = node->q[curve] + sign * (node->gap[curve] + distance);
     out->q_t = sign * length * power * extent;
     out->q_u = (node->slope[curve] + sign * (node->gap_slope[curve] + along)) * node->alpha_u;
+}
+
+void sa_map_locate(int *strip, int *side, double *t, const sa_map_node *node, double q)
+{
+    for (*strip = 0; *strip < node->count - 2 && q > node->q[*strip + 1];)
+        ++*strip;
+    *side = sa_map_strip_sides(node, *strip) == 2 && q > (node->q[*strip] + node->q[*strip + 1]) / 2;
+    int curve = *strip + *side;
+    double distance = fmax(fabs(q - node->q[curve]) - node->gap[curve], 0);
+    double extent = sa_map_strip_extent(node, *strip, *side);
+    *t = extent > 0 ? fmin(log1p(distance / node->length[curve]) / extent, 1) : 0;
 }
 
 void sa_map_clear(sa_map *map)

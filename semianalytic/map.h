@@ -96,4 +96,7 @@ typedef struct {
 
 void sa_map_point_at(sa_map_point *out, const sa_map_node *node, int strip, int side, double t);
 
+/* The strip, its side and t of 0 < q < q_top at a node; within the gap of a curve t is 0. */
+void sa_map_locate(int *strip, int *side, double *t, const sa_map_node *node, double q);
+
 #endif

@@ -69,7 +69,9 @@ static cv_status collect_cuts(sa_map_cuts *cuts, sa_map *map)
         sa_map_cuts_add(cuts, curves->alpha_max, 0) != CV_OK)
         return CV_FAILED;
     for (size_t i = 0; i < curves->special_count; ++i)
-        if (sa_map_cuts_add(cuts, curves->special[i].alpha, 1) != CV_OK)
+        /* without damping zeta is smooth at the shear speed, whose arcs are cut below */
+        if (!(map->undamped && curves->special[i].kind == SA_SPECIAL_SHEAR) &&
+            sa_map_cuts_add(cuts, curves->special[i].alpha, 1) != CV_OK)
             return CV_FAILED;
     if (sa_map_ghosts(map, cuts) != CV_OK || cut_infinite_arcs(cuts, map) != CV_OK ||
         sa_map_dips(map, cuts) != CV_OK)

@@ -44,10 +44,14 @@ double sa_map_grading(double damping, double size);
  * three dampings zero or much smaller, there are waves that stretch none of the other elements. */
 cv_status sa_map_dips(const sa_map *map, sa_map_cuts *cuts);
 
+/* Undamped tracks: distance that is kept from a curve at q. */
+double sa_map_gap(double q);
+
 /* 1 when the singularity of zeta at the branch point of this wave is too weak to matter even at its sharpest
  * (distance = damping): its height W^2 / (2 omega sqrt(2 omega'' damping)) for a mode of unit kinetic norm,
  * times q^2, is far below the Im zeta ~ eta q^3 that damping makes anywhere. So it is where a branch becomes
- * flat or nears the shear speed, W^2 ~ p^-8. */
+ * flat or nears the shear speed, W^2 ~ p^-8. Without damping: at the distance that is kept from curves,
+ * against what any track radiates; what crosses the real axis nearer than that is found by crossings.h. */
 int sa_map_negligible(const sa_map *map, const sa_wave *wave, double q);
 
 /* Fills the curves and grading lengths of a column whose ends are set. CV_FAILED: too many curves, or a wave

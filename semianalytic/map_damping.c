@@ -51,14 +51,14 @@ double sa_map_grading(double damping, double size)
 
 int sa_map_negligible(const sa_map *map, const sa_wave *wave, double q)
 {
-    const double share = 1e-7, finest = 1e-14;
+    const double share = 1e-7, finest = 1e-14, undamped_share = 1e-13;
     double v[3], eta = fmax(map->eta_p, fmax(map->eta_b, map->eta_f));
     if (!isfinite(wave->p))
         return 1;
     mode_shape(v, &map->curves.grid.track, wave->p, wave->omega);
-    double damping = fmax(sa_map_damping(NULL, map, wave), finest);
-    double peak = v[0] * v[0] / (2 * (double)wave->omega * sqrt(2 * fabs((double)wave->d[2]) * damping));
-    return peak < share * eta * q;
+    double sharpest = map->undamped ? sa_map_gap(q) : fmax(sa_map_damping(NULL, map, wave), finest);
+    double peak = v[0] * v[0] / (2 * (double)wave->omega * sqrt(2 * fabs((double)wave->d[2]) * sharpest));
+    return peak < (map->undamped ? undamped_share : share * eta) * q;
 }
 
 /* Sampled damping along the part of a branch that is an arc. */
