@@ -1,5 +1,7 @@
 #include "dgreen/bounds.h"
 
+#include <math.h>
+
 /* Distances are computed in double with a few rounding errors. */
 static const double SLACK = 1 - 1e-14;
 
@@ -62,4 +64,21 @@ cv_status dg_separate(double *radius, double *slope_relative, double *crowding, 
         slope_relative[i] = s->slope_error[i] / slope[i] + 2.5 * radius[i] * sum;
     }
     return CV_OK;
+}
+
+dg_r_size dg_r_size_at(const dg_operator *op, int far, double x, double y, double reach)
+{
+    double re = 0, im = 0, d_re = 0, d_im = 0, size = 0;
+    for (int k = DG_R_DEGREE; k >= 0; k--) {
+        const int at = far ? DG_R_DEGREE - k : k;
+        const double next = d_re * x - d_im * y + re;
+        d_im = d_re * y + d_im * x + im;
+        d_re = next;
+        const double value = re * x - im * y + op->r_re[at];
+        im = re * y + im * x + op->r_im[at];
+        re = value;
+        size = size * reach + op->r_size[at];
+    }
+    const double rounding = reach > 0 ? 8 * DG_R_UNITS * 0x1p-53 * size / reach : 0;
+    return (dg_r_size){size, hypot(d_re, d_im) + rounding};
 }

@@ -48,6 +48,13 @@ static inline double dg_numerator_error(double size, double slope, double reach,
     return DG_R_UNITS * size * (1 + 8 * relative) + radius * slope + second;
 }
 
+/* The size polynomial of R at distance reach from 0, and a bound of |R'| at x + i y, both in double; of u^4
+ * R(i/u) when far. */
+typedef struct {
+    double size, slope;
+} dg_r_size;
+dg_r_size dg_r_size_at(const dg_operator *op, int far, double x, double y, double reach);
+
 /* Bound (units) of the error of top/bottom: |top| with error top_error (units), |bottom| with the relative
  * error given (units, times u below 1/2). */
 static inline double dg_quotient_error(double top, double top_error, double bottom, double relative,

@@ -29,7 +29,7 @@ cv_status dg_probe_at(dg_node *node, const dg_probe *p, double alpha, double q)
     const double complex qbar = CMPLX(0, q);
     cv_status status = dg_zeta_double(&v, p->follow, p->track, alpha, qbar);
     if (status == CV_UNDECIDED || (status == CV_OK && !is_certain(&v)))
-        status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, qbar, INFINITY, 0.5);
+        status = dg_zeta_above_double(&v, p->follow, p->track, alpha, qbar, INFINITY, 0.5);
     if (status == CV_OK)
         *node = (dg_node){q, v.re, v.im, v.re_error, 0};
     return status;
@@ -53,7 +53,7 @@ cv_status dg_probe_value(dg_node *node, int *certain, const dg_probe *p, double 
     const double complex qbar = CMPLX(0, q);
     cv_status status = dg_zeta_double(&v, p->follow, p->track, alpha, qbar);
     if (status == CV_UNDECIDED || (status == CV_OK && is_coarse(&v)))
-        status = dg_zeta_adaptive(&v, p->follow, p->track, alpha, qbar, 1e-10, INFINITY);
+        status = dg_zeta_above_double(&v, p->follow, p->track, alpha, qbar, 1e-10, INFINITY);
     if (status == CV_OK) {
         *certain = is_certain(&v);
         *node = (dg_node){q, v.re, v.im, v.re_error, 0};

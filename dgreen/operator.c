@@ -20,11 +20,18 @@ static void set_doubles(dg_track *t)
     t->eta_N = cv_number_get_double(&p->eta_N);
 }
 
-void dg_constants_init(dg_constants *c, const dg_track *t, mpfr_prec_t precision)
+static void list(const cv_number *source[DG_PARAMETERS], const dg_track *t)
 {
     const cv_params *p = &t->exact;
-    const cv_number *source[DG_PARAMETERS] = {&p->mu_s,  &p->mu_b,  &p->kappa_p, &p->kappa_b, &p->eta_p,
-                                              &p->eta_b, &p->eta_f, &p->eta_s,   &p->eta_N};
+    const cv_number *each[DG_PARAMETERS] = {&p->mu_s,  &p->mu_b,  &p->kappa_p, &p->kappa_b, &p->eta_p,
+                                            &p->eta_b, &p->eta_f, &p->eta_s,   &p->eta_N};
+    memcpy(source, each, sizeof each);
+}
+
+void dg_constants_init(dg_constants *c, const dg_track *t, mpfr_prec_t precision)
+{
+    const cv_number *source[DG_PARAMETERS];
+    list(source, t);
     for (int i = 0; i < DG_PARAMETERS; i++) {
         mpfr_init2(c->value[i], precision);
         cv_number_get_mpfr(c->value[i], source[i]);
@@ -37,6 +44,20 @@ void dg_constants_clear(dg_constants *c)
         mpfr_clear(c->value[i]);
 }
 
+/* x = hi + lo to 106 bits */
+static dg_dd twofold(const cv_number *x)
+{
+    mpfr_t exact, rest;
+    mpfr_init2(exact, 2 * 53 + 8);
+    mpfr_init2(rest, 53);
+    cv_number_get_mpfr(exact, x);
+    const double hi = mpfr_get_d(exact, MPFR_RNDN);
+    mpfr_sub_d(rest, exact, hi, MPFR_RNDN);
+    const dg_dd both = {hi, mpfr_get_d(rest, MPFR_RNDN)};
+    mpfr_clears(exact, rest, (mpfr_ptr)NULL);
+    return both;
+}
+
 cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why)
 {
     dg_track *t = calloc(1, sizeof *t);
@@ -47,6 +68,10 @@ cv_status dg_track_new(dg_track **out, const cv_params *p, cv_message *why)
     cv_params_set(&t->exact, p);
     set_doubles(t);
     t->damped = !cv_params_undamped(p);
+    const cv_number *source[DG_PARAMETERS];
+    list(source, t);
+    for (int i = 0; i < DG_PARAMETERS; i++)
+        t->twofold[i] = twofold(source[i]);
     for (int i = 0; i < DG_LADDER; i++)
         dg_constants_init(&t->ladder[i], t, dg_ladder[i]);
     return CV_OK;
@@ -176,4 +201,16 @@ void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double co
     const double inertia = alpha * alpha * t->mu_b;
     op->degree = alpha > 0 ? DG_DEGREE : t->eta_s > 0 ? 6 : 4;
     op->relative_a0 = alpha > 0 ? (inertia - t->eta_s) / (inertia + t->eta_s) : -1;
+}
+
+int dg_operator_count_fits(const dg_operator *op, int right, int left)
+{
+    static const double ROUNDING = 1e-14;
+    if (op->degree < DG_DEGREE)
+        return right == op->degree / 2;
+    if (right + left < DG_DEGREE)
+        return right == 5;
+    if (!(fabs(op->relative_a0) > ROUNDING))
+        return right == 5 || right == 6;
+    return right == (op->relative_a0 > 0 ? 6 : 5);
 }

@@ -23,6 +23,7 @@
 #include <mpfr.h>
 
 #include "common/params.h"
+#include "dgreen/dd.h"
 
 enum { DG_DEGREE = 8, DG_R_DEGREE = 4 };
 
@@ -48,11 +49,12 @@ typedef struct {
 enum { DG_LADDER = 3 };
 extern const mpfr_prec_t dg_ladder[DG_LADDER]; /* 127, 191, 255 */
 
-/* The parameters of one track: exact, rounded to double, and rounded to the precisions of the ladder. */
+/* The parameters of one track: exact, rounded to double, and rounded to the higher precisions. */
 typedef struct {
     cv_params exact;
     double mu_s, mu_b, kappa_p, kappa_b, eta_p, eta_b, eta_f, eta_s, eta_N;
-    int damped; /* at least one damping ratio is positive */
+    int damped;                   /* at least one damping ratio is positive */
+    dg_dd twofold[DG_PARAMETERS]; /* in double-double */
     dg_constants ladder[DG_LADDER];
 } dg_track;
 
@@ -79,5 +81,10 @@ typedef struct {
 
 /* Any alpha >= 0 and any qbar. */
 void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double complex qbar);
+
+/* 1: as many roots with Re lambda > 0 (right) and < 0 (left) as there must be. Damping or Re qbar > 0 leave
+ * no lambda on the imaginary axis below buckling, so the number depends on the sign of a0 alone; the far
+ * root's side is that sign. A far root whose side is open is in neither number. */
+int dg_operator_count_fits(const dg_operator *op, int right, int left);
 
 #endif

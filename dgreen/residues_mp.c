@@ -27,25 +27,6 @@ void dg_mp_residues_clear(dg_mp_residues *r)
         mpfr_clear(r->t[i]);
 }
 
-/* |R'| and the size polynomial of R at distance reach, in double. */
-static void r_sizes(double *size, double *slope, const dg_operator *op, int far, double x, double y,
-                    double reach)
-{
-    double re = 0, im = 0, d_re = 0, d_im = 0, sum = 0;
-    for (int k = DG_R_DEGREE; k >= 0; k--) {
-        const int at = far ? DG_R_DEGREE - k : k;
-        const double next = d_re * x - d_im * y + re;
-        d_im = d_re * y + d_im * x + im;
-        d_re = next;
-        const double value = re * x - im * y + op->r_re[at];
-        im = re * y + im * x + op->r_im[at];
-        re = value;
-        sum = sum * reach + op->r_size[at];
-    }
-    *size = sum;
-    *slope = hypot(d_re, d_im) + (reach > 0 ? 8 * DG_R_UNITS * 0x1p-53 * sum / reach : 0);
-}
-
 /* r->top = R(i y_i), or u^4 R(i/u) for the far root; returns the bound of its error (units) */
 static double numerator(dg_mp_residues *r, const dg_mp_operator *op, const dg_mp_roots *roots, int i, int far)
 {
@@ -54,9 +35,8 @@ static double numerator(dg_mp_residues *r, const dg_mp_operator *op, const dg_mp
         dg_mp_horner(r->top, roots->y[i], op->r.c[far ? DG_R_DEGREE - k : k], r->t);
     const double x = mpfr_get_d(mpc_realref(roots->y[i]), RND), y = mpfr_get_d(mpc_imagref(roots->y[i]), RND);
     const double reach = hypot(x, y) + roots->radius[i] * roots->unit;
-    double size, slope;
-    r_sizes(&size, &slope, &op->rounded, far, x, y, reach);
-    return dg_numerator_error(size, slope, reach, roots->radius[i], roots->unit);
+    const dg_r_size s = dg_r_size_at(&op->rounded, far, x, y, reach);
+    return dg_numerator_error(s.size, s.slope, reach, roots->radius[i], roots->unit);
 }
 
 /* r->residue = residue of root i; returns the bound of its error (units). With u = 1/y the residue of the far

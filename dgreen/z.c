@@ -49,19 +49,6 @@ static void scale(dg_value *value, const dg_residue *sum, double complex qbar)
     value->im_error = (fabs(f_re) * im + fabs(f_im) * re) * UNIT * (1 + 16 * UNIT);
 }
 
-/* Damping or Re qbar > 0 leave no lambda on the imaginary axis below buckling, so the count depends on the
- * sign of a0 alone; the far root's side is that sign. */
-static int count_is_wrong(const dg_residues *sums, const dg_operator *op)
-{
-    if (op->degree < DG_DEGREE)
-        return sums->right_count != op->degree / 2;
-    if (sums->right_count + sums->left_count < DG_DEGREE)
-        return sums->right_count != 5;
-    if (!(fabs(op->relative_a0) > 16 * UNIT))
-        return sums->right_count != 5 && sums->right_count != 6;
-    return sums->right_count != (op->relative_a0 > 0 ? 6 : 5);
-}
-
 static cv_status evaluate(dg_value *value, const dg_roots *roots, const dg_discs *discs,
                           const dg_operator *op, double complex qbar)
 {
@@ -69,19 +56,20 @@ static cv_status evaluate(dg_value *value, const dg_roots *roots, const dg_discs
     const cv_status status = dg_residues_sum(&sums, op, roots, discs);
     if (status != CV_OK)
         return status;
-    if (count_is_wrong(&sums, op))
+    if (!dg_operator_count_fits(op, sums.right_count, sums.left_count))
         return CV_FAILED;
     scale(value, &sums.right, qbar);
     value->right_count = sums.right_count;
     return isfinite(value->re) && isfinite(value->im) ? CV_OK : CV_UNDECIDED;
 }
 
-/* Roots with discs: continued from the last point, or from nothing where that fails. */
+/* Roots with discs: continued from the last point, or from nothing where that fails. Discs that meet after a
+ * continuation are left to double-double: nearly always it is two roots too close for double. */
 static cv_status find_roots(dg_follow *follow, dg_discs *discs, const dg_operator *op)
 {
     dg_roots *roots = &follow->roots;
-    if (follow->warm && dg_roots_polish(roots, op) == CV_OK && dg_roots_enclose(discs, roots, op) == CV_OK)
-        return CV_OK;
+    if (follow->warm && dg_roots_polish(roots, op) == CV_OK)
+        return dg_roots_enclose(discs, roots, op);
     follow->counters.cold_starts++;
     cv_status status = dg_roots_cold(roots, op);
     if (status == CV_OK)
@@ -97,6 +85,7 @@ cv_status dg_zeta_double(dg_value *value, dg_follow *follow, const dg_track *tra
         return CV_BAD_INPUT;
     dg_operator op;
     dg_discs discs;
+    *value = (dg_value){0, 0, HUGE_VAL, HUGE_VAL, 0};
     dg_operator_set(&op, track, alpha, qbar);
     follow->counters.evaluations++;
     const cv_status status = find_roots(follow, &discs, &op);

@@ -38,17 +38,22 @@ void dg_follow_free(dg_follow *f); /* NULL allowed */
 dg_counters dg_follow_counters(const dg_follow *f);
 
 /* In double only. CV_OK: the value is bounded (not necessarily well: look at the bounds). CV_UNDECIDED:
- * double cannot decide the half-plane of a root, or separate two roots; *value is then unset. CV_BAD_INPUT:
- * alpha < 0 or Re qbar < 0. CV_FAILED: a theorem is violated (count of roots, sum of residues), that is, a
- * bug. */
+ * double cannot decide the half-plane of a root, or separate two roots; *value has infinite bounds.
+ * CV_BAD_INPUT: alpha < 0 or Re qbar < 0. CV_FAILED: a theorem is violated (count of roots, sum of residues),
+ * that is, a bug. */
 cv_status dg_zeta_double(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
                          double complex qbar);
 
-/* The same, repeated in MPFR at 127, 191, 255, ... bits while a bound exceeds its tolerance (relative to the
- * part it belongs to: re_error <= tol_re |re|, im_error <= tol_im |im|). A tolerance of 1 settles a sign.
- * INFINITY: the part is not wanted. CV_UNDECIDED: the largest precision was not enough; *value then holds the
- * best value and bounds there are, or infinite bounds. */
+/* The same, repeated in double-double and then in MPFR at 127, 191 and 255 bits while a bound exceeds its
+ * tolerance (relative to the part it belongs to: re_error <= tol_re |re|, im_error <= tol_im |im|). A
+ * tolerance of 1 settles a sign. INFINITY: the part is not wanted. CV_UNDECIDED: the largest precision was
+ * not enough; *value then holds the best value and bounds there are, or infinite bounds. */
 cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
                            double complex qbar, double tol_re, double tol_im);
+
+/* The same without the first step, for a caller that has just had dg_zeta_double at this point, with an
+ * answer in *value that is not good enough. */
+cv_status dg_zeta_above_double(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
+                               double complex qbar, double tol_re, double tol_im);
 
 #endif

@@ -1,7 +1,8 @@
-/* dg_zeta_adaptive: double first, then the ladder of precisions. */
+/* dg_zeta_adaptive: double first, then double-double, then the ladder of precisions. */
 #include <math.h>
 
 #include "dgreen/follow.h"
+#include "dgreen/z_dd.h"
 
 static const double UNIT = 0x1p-53;
 
@@ -25,38 +26,71 @@ static void round_value(dg_value *value, const dg_mp_value *v)
     value->right_count = v->right_count;
 }
 
+static void note_precision(dg_follow *f, int bits)
+{
+    if (f->counters.largest_precision < bits)
+        f->counters.largest_precision = bits;
+}
+
+/* In double-double: from the roots of the last point, and where two of those have become one, from nothing.
+ */
+static cv_status twofold(dg_value *value, dg_follow *f, const dg_track *track, double alpha,
+                         double complex qbar)
+{
+    dg_operator op;
+    cv_status status = CV_UNDECIDED;
+    note_precision(f, DG_DD_BITS);
+    if (f->warm)
+        status = dg_dd_zeta(value, &f->roots, track, alpha, qbar);
+    if (status != CV_UNDECIDED)
+        return status;
+    dg_operator_set(&op, track, alpha, qbar);
+    f->counters.cold_starts++;
+    f->warm = dg_roots_cold(&f->roots, &op) == CV_OK;
+    return f->warm ? dg_dd_zeta(value, &f->roots, track, alpha, qbar) : status;
+}
+
+/* With as many bits as that rung of the ladder has. */
 static cv_status climb(dg_value *value, dg_follow *f, const dg_track *track, int rung)
 {
     if (f->mp[rung] == NULL && dg_mp_new(&f->mp[rung], dg_ladder[rung], NULL) != CV_OK)
         return CV_FAILED;
-    if (f->counters.largest_precision < dg_ladder[rung])
-        f->counters.largest_precision = (int)dg_ladder[rung];
+    note_precision(f, (int)dg_ladder[rung]);
     dg_mp_value v;
     const cv_status status = dg_mp_zeta(&v, f->mp[rung], track, &track->ladder[rung], f->alpha, f->qbar,
-                                        f->warm ? &f->roots : NULL);
+                                        f->warm && rung == 0 ? &f->roots : NULL);
     if (status == CV_OK)
         round_value(value, &v);
     return status;
 }
 
-cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
-                           double complex qbar, double tol_re, double tol_im)
+cv_status dg_zeta_above_double(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
+                               double complex qbar, double tol_re, double tol_im)
 {
-    *value = (dg_value){0, 0, HUGE_VAL, HUGE_VAL, 0};
-    cv_status status = dg_zeta_double(value, follow, track, alpha, qbar);
-    if (status == CV_OK && good_enough(value, tol_re, tol_im))
-        return CV_OK;
-    if (status != CV_OK && status != CV_UNDECIDED)
-        return status;
+    cv_status status = CV_UNDECIDED;
     follow->counters.above_double++;
+    if (track->damped || creal(qbar) > 0)
+        status = twofold(value, follow, track, alpha, qbar);
     mpfr_set_d(follow->alpha, alpha, MPFR_RNDN);
     mpc_set_d_d(follow->qbar, creal(qbar), cimag(qbar), MPC_RNDNN);
-    for (int rung = 0; rung < DG_LADDER; rung++) {
-        status = climb(value, follow, track, rung);
+    for (int rung = 0; rung <= DG_LADDER; rung++) {
         if (status == CV_OK && good_enough(value, tol_re, tol_im))
             return CV_OK;
         if (status != CV_OK && status != CV_UNDECIDED)
             return status;
+        if (rung < DG_LADDER)
+            status = climb(value, follow, track, rung);
     }
     return CV_UNDECIDED;
+}
+
+cv_status dg_zeta_adaptive(dg_value *value, dg_follow *follow, const dg_track *track, double alpha,
+                           double complex qbar, double tol_re, double tol_im)
+{
+    const cv_status status = dg_zeta_double(value, follow, track, alpha, qbar);
+    if (status == CV_OK && good_enough(value, tol_re, tol_im))
+        return CV_OK;
+    if (status != CV_OK && status != CV_UNDECIDED)
+        return status;
+    return dg_zeta_above_double(value, follow, track, alpha, qbar, tol_re, tol_im);
 }

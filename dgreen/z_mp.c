@@ -77,20 +77,6 @@ static void scale(dg_mp *w, mpc_srcptr qbar)
     }
 }
 
-/* As for double: the number of Re lambda > 0 follows from the sign of a0. */
-static int count_is_wrong(const dg_mp *w)
-{
-    const dg_operator *op = &w->op.rounded;
-    const int right = w->sums.right_count;
-    if (op->degree < DG_DEGREE)
-        return right != op->degree / 2;
-    if (right + w->sums.left_count < DG_DEGREE)
-        return right != 5;
-    if (!(fabs(op->relative_a0) > 1e-14))
-        return right != 5 && right != 6;
-    return right != (op->relative_a0 > 0 ? 6 : 5);
-}
-
 /* Roots in double from nothing: polished where double can. */
 static cv_status cold_start(dg_roots *start, const dg_operator *op)
 {
@@ -120,7 +106,7 @@ cv_status dg_mp_zeta(dg_mp_value *value, dg_mp *w, const dg_track *track, const 
     if (status == CV_OK)
         status = undamped ? dg_mp_residues_sum_undamped(&w->sums, &w->op, &w->roots, alpha)
                           : dg_mp_residues_sum(&w->sums, &w->op, &w->roots);
-    if (status == CV_OK && count_is_wrong(w))
+    if (status == CV_OK && !dg_operator_count_fits(&w->op.rounded, w->sums.right_count, w->sums.left_count))
         status = CV_FAILED;
     if (status != CV_OK)
         return status;
