@@ -4,7 +4,13 @@
 #include <lapacke.h>
 #include <math.h>
 
-/* Value and slope of Delta(i y) at y, or of the reversed polynomial at u. */
+#if defined(__x86_64__) && defined(__GLIBC__)
+#define CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define CLONES
+#endif
+
+/* Value and slope of the reversed polynomial at u. */
 typedef struct {
     double re, im, slope_re, slope_im;
 } sample;
@@ -114,46 +120,104 @@ cv_status dg_roots_cold(dg_roots *roots, const dg_operator *op)
     return CV_OK;
 }
 
-/* sum over k != i of 1/(y_i - y_k), the far root included; nearest becomes 1/distance^2 of the closest. */
-static inline void repulsion(double *re, double *im, double *nearest, const dg_roots *r, int i)
+/* One number per root; loops over all of them are meant for vector instructions. A slot without a near root
+ * has its coordinates at NOWHERE, so far out that it neither repels nor is near to any other. */
+typedef struct {
+    double of[DG_DEGREE];
+} lanes;
+static const double NOWHERE = 1e200;
+
+/* The near roots, twice in a row, so that "k places further" is contiguous */
+typedef struct {
+    double re[2 * DG_DEGREE], im[2 * DG_DEGREE];
+} ring;
+
+static inline ring ring_of(const dg_roots *r)
 {
+    ring at;
     const int near = r->count - r->far;
-    double sum_re = 0, sum_im = 0, largest = 0;
-    for (int k = 0; k < near; k++) {
-        if (k == i)
-            continue;
-        const double dx = r->re[i] - r->re[k], dy = r->im[i] - r->im[k];
-        const double inverse = 1 / (dx * dx + dy * dy);
-        sum_re += dx * inverse;
-        sum_im -= dy * inverse;
-        largest = inverse > largest ? inverse : largest;
+    for (int i = 0; i < 2 * DG_DEGREE; i++) {
+        const int k = i % DG_DEGREE;
+        at.re[i] = k < near ? r->re[k] : NOWHERE;
+        at.im[i] = k < near ? r->im[k] : NOWHERE;
     }
-    if (r->far) { /* 1/(y - 1/u) = u/(u y - 1) */
-        const double complex u = CMPLX(r->re[near], r->im[near]);
-        const double complex term = u / (u * CMPLX(r->re[i], r->im[i]) - 1);
-        sum_re += creal(term);
-        sum_im += cimag(term);
-    }
-    *re = sum_re;
-    *im = sum_im;
-    *nearest = largest;
+    return at;
 }
 
-/* One Ehrlich-Aberth update N/(1 - N A) of root i, N = f/f'. Returns (|step| / distance to the nearest)^2. */
-static inline double update(dg_roots *r, const dg_operator *op, int i)
+/* Horner for value and derivative of Delta(i y) at all near roots */
+static inline void evaluate_all(lanes *f_re, lanes *f_im, lanes *d_re, lanes *d_im, const dg_operator *op,
+                                const ring *y)
 {
-    const sample s = evaluate(op->re, op->im, op->degree, 1, r->re[i], r->im[i]);
-    double a_re, a_im, nearest;
-    repulsion(&a_re, &a_im, &nearest, r, i);
-    /* f / (f' - f A) */
-    const double d_re = s.slope_re - (s.re * a_re - s.im * a_im);
-    const double d_im = s.slope_im - (s.re * a_im + s.im * a_re);
-    const double inverse = 1 / (d_re * d_re + d_im * d_im);
-    const double step_re = (s.re * d_re + s.im * d_im) * inverse;
-    const double step_im = (s.im * d_re - s.re * d_im) * inverse;
-    r->re[i] -= step_re;
-    r->im[i] -= step_im;
-    return (step_re * step_re + step_im * step_im) * nearest;
+    for (int i = 0; i < DG_DEGREE; i++) {
+        f_re->of[i] = op->re[op->degree];
+        f_im->of[i] = op->im[op->degree];
+        d_re->of[i] = d_im->of[i] = 0;
+    }
+    for (int k = op->degree - 1; k >= 0; k--) {
+        const double c_re = op->re[k], c_im = op->im[k];
+        for (int i = 0; i < DG_DEGREE; i++) {
+            const double re = d_re->of[i] * y->re[i] - d_im->of[i] * y->im[i] + f_re->of[i];
+            d_im->of[i] = d_re->of[i] * y->im[i] + d_im->of[i] * y->re[i] + f_im->of[i];
+            d_re->of[i] = re;
+            const double value = f_re->of[i] * y->re[i] - f_im->of[i] * y->im[i] + c_re;
+            f_im->of[i] = f_re->of[i] * y->im[i] + f_im->of[i] * y->re[i] + c_im;
+            f_re->of[i] = value;
+        }
+    }
+}
+
+/* sum over k != i of 1/(y_i - y_k); nearest: 1/distance^2 of the closest */
+static inline void repulsion(lanes *a_re, lanes *a_im, lanes *nearest, const ring *y)
+{
+    for (int i = 0; i < DG_DEGREE; i++)
+        a_re->of[i] = a_im->of[i] = nearest->of[i] = 0;
+    for (int k = 1; k < DG_DEGREE; k++)
+        for (int i = 0; i < DG_DEGREE; i++) {
+            const double dx = y->re[i] - y->re[i + k], dy = y->im[i] - y->im[i + k];
+            const double inverse = 1 / (dx * dx + dy * dy);
+            a_re->of[i] += dx * inverse;
+            a_im->of[i] -= dy * inverse;
+            nearest->of[i] = inverse > nearest->of[i] ? inverse : nearest->of[i];
+        }
+}
+
+/* 1/(y - 1/u) = u/(u y - 1) */
+static inline void add_far_repulsion(lanes *a_re, lanes *a_im, const dg_roots *r)
+{
+    const int near = r->count - 1;
+    const double complex u = CMPLX(r->re[near], r->im[near]);
+    for (int i = 0; i < near; i++) {
+        const double complex term = u / (u * CMPLX(r->re[i], r->im[i]) - 1);
+        a_re->of[i] += creal(term);
+        a_im->of[i] += cimag(term);
+    }
+}
+
+/* One Ehrlich-Aberth update N/(1 - N A) of all near roots, N = f/f'. moved: (|step| / distance to the
+ * nearest)^2 */
+static inline void update_near(lanes *moved, dg_roots *r, const dg_operator *op)
+{
+    lanes f_re, f_im, d_re, d_im, a_re, a_im;
+    const ring y = ring_of(r);
+    evaluate_all(&f_re, &f_im, &d_re, &d_im, op, &y);
+    repulsion(&a_re, &a_im, moved, &y);
+    if (r->far)
+        add_far_repulsion(&a_re, &a_im, r);
+    double re[DG_DEGREE], im[DG_DEGREE];
+    for (int i = 0; i < DG_DEGREE; i++) { /* f / (f' - f A) */
+        const double u = d_re.of[i] - (f_re.of[i] * a_re.of[i] - f_im.of[i] * a_im.of[i]);
+        const double v = d_im.of[i] - (f_re.of[i] * a_im.of[i] + f_im.of[i] * a_re.of[i]);
+        const double inverse = 1 / (u * u + v * v);
+        const double step_re = (f_re.of[i] * u + f_im.of[i] * v) * inverse;
+        const double step_im = (f_im.of[i] * u - f_re.of[i] * v) * inverse;
+        re[i] = y.re[i] - step_re;
+        im[i] = y.im[i] - step_im;
+        moved->of[i] *= step_re * step_re + step_im * step_im;
+    }
+    for (int i = 0; i < r->count - r->far; i++) {
+        r->re[i] = re[i];
+        r->im[i] = im[i];
+    }
 }
 
 /* One Newton update of the far root, in u; the other roots are far from it there. */
@@ -170,20 +234,29 @@ static double update_far(dg_roots *r, const dg_operator *op)
 }
 
 /* After a step shorter than 1e-5 of the distance to the nearest root, the error left is of third order in it:
- * below rounding. */
-static cv_status polish(dg_roots *roots, const dg_operator *op, int sweeps)
+ * below rounding. Where short steps no longer become shorter, rounding is all there is: near a cluster. */
+static int settled(double moved, double last)
 {
+    static const double SETTLED = 1e-10, SHORT = 1e-4, SHORTER = 0.01;
+    return moved < SETTLED || (moved < SHORT && moved > SHORTER * last);
+}
+
+CLONES static cv_status polish(dg_roots *roots, const dg_operator *op, int sweeps)
+{
+    lanes moved, last;
     choose_form(roots, op);
-    const int near = roots->count - roots->far;
+    for (int i = 0; i < DG_DEGREE; i++)
+        last.of[i] = HUGE_VAL;
     for (int sweep = 0; sweep < sweeps; sweep++) {
-        int settled = 1;
-        for (int i = 0; i < near; i++)
-            if (!(update(roots, op, i) < 1e-10))
-                settled = 0;
+        int all = 1;
+        update_near(&moved, roots, op);
+        for (int i = 0; i < roots->count - roots->far; i++)
+            all &= settled(moved.of[i], last.of[i]);
         if (roots->far && !(update_far(roots, op) < 1e-16))
-            settled = 0;
-        if (settled)
+            all = 0;
+        if (all)
             return CV_OK;
+        last = moved;
     }
     return CV_UNDECIDED;
 }

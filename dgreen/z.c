@@ -28,6 +28,8 @@ void dg_follow_free(dg_follow *f)
         dg_mp_free(f->mp[i]);
     mpfr_clear(f->alpha);
     mpc_clear(f->qbar);
+    dg_follow_row_clear(&f->here);
+    dg_follow_row_clear(&f->before);
     free(f);
 }
 
@@ -88,6 +90,11 @@ cv_status dg_zeta_double(dg_value *value, dg_follow *follow, const dg_track *tra
     *value = (dg_value){0, 0, HUGE_VAL, HUGE_VAL, 0};
     dg_operator_set(&op, track, alpha, qbar);
     follow->counters.evaluations++;
+    const int on_axis = creal(qbar) == 0 && cimag(qbar) > 0 && alpha > 0;
+    if (on_axis)
+        dg_follow_jump(follow, alpha, cimag(qbar));
     const cv_status status = find_roots(follow, &discs, &op);
+    if (on_axis && follow->warm)
+        dg_follow_note(follow, alpha, cimag(qbar));
     return status == CV_OK ? evaluate(value, &follow->roots, &discs, &op, qbar) : status;
 }
