@@ -4,15 +4,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dgreen/curve_station.h"
 #include "dgreen/transitions_bracket.h"
 #include "dgreen/velocities.h"
+#include "dgreen/z.h"
 
 #define RND MPFR_RNDN
 
-enum { FIRST_BITS = 127, MORE_BITS = 64, MAX_EXTRA_BITS = 2048, GUARD_DIGITS = 8, MIN_STEPS = 60 };
+enum { MORE_BITS = 64, MAX_EXTRA_BITS = 2048, GUARD_DIGITS = 8, MIN_STEPS = 60 };
 /* A minimum of |S1| is looked at when the parabola through three values goes below this part of the middle
  * one, or when that falls short of the power law through its neighbours by this factor. */
 static const double CLEARANCE = 0.85, KINK = 3;
+/* The first look takes S1 from Im zeta = -4 q^3 (S1 + O(q^2)) at this part of the distance over which zeta
+ * changes, to this accuracy. */
+static const double LOW = 1e-5, LOOK_TOLERANCE = 1e-3;
 
 void dg_asymptote_list_clear(dg_asymptote_list *list)
 {
@@ -24,10 +29,13 @@ void dg_asymptote_list_clear(dg_asymptote_list *list)
 
 typedef struct {
     const dg_track *track;
+    const dg_branch_curves *branches; /* of the first look, and what follows */
+    dg_follow *follow;
+    dg_station station;
     dg_asymptote_list *list;
     int digits;
-    mpfr_prec_t bits, limit;    /* of the refinement */
-    mpfr_t alpha, s0, s1, more; /* scratch */
+    mpfr_prec_t bits, limit; /* of the refinement */
+    mpfr_t s0, s1, more;     /* scratch */
     cv_message *why;
 } finder;
 
@@ -42,21 +50,24 @@ static void doubt(finder *f, double alpha)
             cv_fail(&f->list->why, CV_UNDECIDED, "low-frequency limit not decided near alpha = %.17g", alpha);
 }
 
-/* S1 in double, from as many bits as the roots need. */
+/* Im zeta at a frequency far below the lowest branch point, with a certain sign */
 static cv_status look(sample *s, finder *f)
 {
-    cv_status status = CV_UNDECIDED;
-    mpfr_set_d(f->alpha, s->alpha, RND);
-    for (mpfr_prec_t bits = FIRST_BITS; status == CV_UNDECIDED && bits <= FIRST_BITS + MAX_EXTRA_BITS;
-         bits *= 2)
-        status = dg_low_frequency(f->s0, f->s1, f->track, f->alpha, bits);
-    if (status == CV_OK)
-        s->value = mpfr_get_d(f->s1, RND);
+    cv_status status = dg_station_set(&f->station, f->branches, s->alpha, f->why);
+    if (status != CV_OK)
+        return status;
+    double scale = 1;
+    for (size_t i = 0; i < f->station.count; i++)
+        scale = fmin(scale, hypot(f->station.points[i].q, f->station.points[i].width));
+    const double q = LOW * scale;
+    dg_value zeta;
+    status = dg_zeta_adaptive(&zeta, f->follow, f->track, s->alpha, CMPLX(0, q), HUGE_VAL, LOOK_TOLERANCE);
+    s->value = -zeta.im / (4 * q * q * q);
     if (status == CV_UNDECIDED) {
         doubt(f, s->alpha);
         s->value = NAN;
     }
-    return status == CV_FAILED ? status : CV_OK;
+    return status == CV_UNDECIDED ? CV_OK : status;
 }
 
 /* For the bracket: S1 at e->at with a sign that 64 bits more confirm. */
@@ -241,22 +252,25 @@ static int ascending(const void *a, const void *b)
 
 static void finder_init(finder *f)
 {
-    mpfr_inits2(53, f->alpha, f->s0, f->s1, f->more, (mpfr_ptr)NULL);
+    mpfr_inits2(53, f->s0, f->s1, f->more, (mpfr_ptr)NULL);
     memset(f->list, 0, sizeof *f->list);
 }
 
 static void finder_clear(finder *f)
 {
-    mpfr_clears(f->alpha, f->s0, f->s1, f->more, (mpfr_ptr)NULL);
+    dg_station_clear(&f->station);
+    mpfr_clears(f->s0, f->s1, f->more, (mpfr_ptr)NULL);
 }
 
 cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, const dg_branch_curves *branches,
                              double alpha_min, double alpha_max, int digits, cv_message *why)
 {
-    finder f = {.track = track, .list = list, .digits = digits, .why = why};
+    finder f = {.track = track, .branches = branches, .list = list, .digits = digits, .why = why};
     dg_velocities v = {0};
     finder_init(&f);
-    cv_status status = dg_velocities_choose(&v, branches, alpha_min, alpha_max, 0, why);
+    cv_status status = dg_follow_new(&f.follow, why);
+    if (status == CV_OK)
+        status = dg_velocities_choose(&v, branches, alpha_min, alpha_max, 0, why);
     if (status == CV_OK)
         status = scan(&f, &v);
     if (list->count > 0)
@@ -264,7 +278,37 @@ cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, con
     if (status != CV_OK)
         dg_asymptote_list_clear(list);
     finder_clear(&f);
+    dg_follow_free(f.follow);
     free(v.at);
+    return status;
+}
+
+/* Copies a velocity that is good enough already. 0: it is not; -1: out of memory */
+static int keep(finder *f, const dg_asymptote *rough)
+{
+    if (!(rough->error <= pow(10, -f->digits) * mpfr_get_d(rough->alpha, MPFR_RNDD)))
+        return 0;
+    dg_asymptote *item = next_item(f);
+    if (item == NULL)
+        return -1;
+    *item = *rough;
+    mpfr_init2(item->alpha, mpfr_get_prec(rough->alpha));
+    mpfr_set(item->alpha, rough->alpha, RND);
+    f->list->count++;
+    return 1;
+}
+
+static cv_status sharpen(finder *f, const dg_asymptote *rough)
+{
+    const int kept = keep(f, rough);
+    if (kept != 0)
+        return kept > 0 ? CV_OK : cv_fail(f->why, CV_FAILED, "out of memory");
+    mpfr_t ends[2];
+    mpfr_inits2(mpfr_get_prec(rough->alpha), ends[0], ends[1], (mpfr_ptr)NULL);
+    mpfr_sub_d(ends[0], rough->alpha, 2 * rough->error, MPFR_RNDD);
+    mpfr_add_d(ends[1], rough->alpha, 2 * rough->error, MPFR_RNDU);
+    const cv_status status = refine_between(f, ends[0], ends[1], rough->error);
+    mpfr_clears(ends[0], ends[1], (mpfr_ptr)NULL);
     return status;
 }
 
@@ -274,15 +318,8 @@ cv_status dg_asymptotes_sharpen(dg_asymptote_list *list, const dg_asymptote_list
     finder f = {.track = track, .list = list, .digits = digits, .why = why};
     cv_status status = CV_OK;
     finder_init(&f);
-    for (size_t i = 0; i < from->count && status == CV_OK; i++) {
-        const dg_asymptote *rough = &from->items[i];
-        mpfr_t ends[2];
-        mpfr_inits2(mpfr_get_prec(rough->alpha), ends[0], ends[1], (mpfr_ptr)NULL);
-        mpfr_sub_d(ends[0], rough->alpha, 2 * rough->error, MPFR_RNDD);
-        mpfr_add_d(ends[1], rough->alpha, 2 * rough->error, MPFR_RNDU);
-        status = refine_between(&f, ends[0], ends[1], rough->error);
-        mpfr_clears(ends[0], ends[1], (mpfr_ptr)NULL);
-    }
+    for (size_t i = 0; i < from->count && status == CV_OK; i++)
+        status = sharpen(&f, &from->items[i]);
     if (from->status != CV_OK) {
         list->status = from->status;
         list->why = from->why;

@@ -35,9 +35,10 @@ typedef struct {
 
 /* The zeros of S1 between the two velocities, 0 < alpha_min < alpha_max, relative errors below 10^-digits.
  * Method: signs at velocities graded towards the special ones of "branches" and at minima of |S1| between
- * them that may hide two; then bracketing. A sign counts when S1 exceeds four times its change from 64 bits
- * more. Not found: two zeros between neighbouring velocities between which |S1| shows no minimum. CV_FAILED:
- * out of memory; the list is then empty. */
+ * them that may hide two, from Im zeta at a frequency far below the lowest branch point; then bracketing by
+ * S1 itself. There a sign counts when S1 exceeds four times its change from 64 bits more. Not found: two
+ * zeros between neighbouring velocities between which |S1| shows no minimum. CV_FAILED: out of memory; the
+ * list is then empty. */
 cv_status dg_asymptotes_find(dg_asymptote_list *list, const dg_track *track, const dg_branch_curves *branches,
                              double alpha_min, double alpha_max, int digits, cv_message *why);
 /* The same velocities to another number of digits, from their error bounds. */
