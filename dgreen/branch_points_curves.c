@@ -174,6 +174,17 @@ static size_t table_cell(const dg_wave_table *table, const dg_family *f, double 
     return low;
 }
 
+/* Newton's method ends at steps below CLOSE, or where those below ROUNDING (relative) no longer become
+ * shorter: q_b, which is stationary in p, is then as good as it gets. */
+static const double CLOSE = 4e-16, ROUNDING = 1e-9;
+
+/* Where the group velocity between two samples is expected to be the target: linear interpolation, inside */
+static double first_guess(const dg_wave_sample *at, double target)
+{
+    const double part = (target - at[0].group) / (at[1].group - at[0].group);
+    return at[0].p + (part > 0.02 && part < 0.98 ? part : 0.5) * (at[1].p - at[0].p);
+}
+
 void dg_family_point(dg_branch_point *out, const dg_branch_curves *b, size_t family, double alpha)
 {
     const dg_family *f = &b->families[family];
@@ -181,21 +192,25 @@ void dg_family_point(dg_branch_point *out, const dg_branch_curves *b, size_t fam
     const double target = f->sign * alpha;
     const int rising = table->at[f->last].group > table->at[f->first].group;
     const size_t cell = table_cell(table, f, target, rising);
-    double low = table->at[cell].p, high = table->at[cell + 1].p, p = (low + high) / 2, step = INFINITY;
-    dg_wave w;
+    const dg_wave_sample *at = &table->at[cell];
+    double low = at[0].p, high = at[1].p, step = INFINITY;
+    double p = first_guess(at, target);
+    dg_wave w = {.omega = 0};
     for (int i = 0; i < 200; i++) {
-        dg_wave_at(&w, b->track, p, f->branch);
-        if ((w.group < target) == rising)
-            low = p;
-        else
-            high = p;
-        double next = p - (w.group - target) / w.curvature;
-        if (!(next > low && next < high && fabs(next - p) < fabs(step) / 2))
-            next = (low + high) / 2;
-        step = next - p;
-        if (fabs(step) <= 4e-16 * p)
+        dg_wave_near(&w, b->track, p, f->branch, w.omega);
+        *((w.group < target) == rising ? &low : &high) = p;
+        const double newton = (target - w.group) / w.curvature;
+        const int shorter = fabs(newton) < fabs(step) / 2;
+        if (fabs(newton) <= CLOSE * p || (!shorter && fabs(newton) <= ROUNDING * p))
             break;
-        p = next;
+        const double next = p + newton;
+        step = newton;
+        if (shorter && next > low && next < high) {
+            p = next;
+            w.omega += w.group * newton;
+        } else {
+            p = (low + high) / 2;
+        }
     }
     const double q = alpha * f->sign * p - w.omega;
     const double width = dg_wave_shift(b->track, p, &w);

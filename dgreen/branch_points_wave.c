@@ -43,33 +43,41 @@ static void bracket_root(double *low, double *high, const dg_track *t, double Y,
     *high = k == 0 ? lower : k == 1 ? upper : fmax(upper, rail) + t->kappa_p / sqrt(t->mu_s);
 }
 
-/* Newton inside a shrinking bracket; f > 0 below roots 0 and 2, < 0 below root 1. */
-static double root_of(const dg_track *t, double Y, int k)
+/* Newton's method ends at steps below CLOSE, or where those below ROUNDING (relative) no longer become
+ * shorter.
+ */
+static const double CLOSE = 1e-16, ROUNDING = 1e-12;
+
+/* Newton inside a shrinking bracket, from the guess where that is inside; f > 0 below roots 0 and 2, < 0
+ * below root 1. */
+static double root_of(const dg_track *t, double Y, int k, double guess)
 {
     double low, high, step = INFINITY;
     bracket_root(&low, &high, t, Y, k);
-    double x = (low + high) / 2;
+    double x = guess > low && guess < high ? guess : (low + high) / 2;
     for (int i = 0; i < 200 && high - low > 1e-16 * high; i++) {
         cubic o;
         cubic_at(&o, t, x, Y);
-        if ((o.f > 0) == (k != 1))
-            low = x;
-        else
-            high = x;
-        double next = x - o.f / o.x;
-        if (!(next > low && next < high && fabs(next - x) < fabs(step) / 2))
-            next = (low + high) / 2;
-        step = next - x;
-        x = next;
-        if (fabs(step) <= 1e-16 * x)
-            break;
+        *((o.f > 0) == (k != 1) ? &low : &high) = x;
+        const double newton = -o.f / o.x;
+        const int shorter = fabs(newton) < fabs(step) / 2;
+        if (fabs(newton) <= CLOSE * x || (!shorter && fabs(newton) <= ROUNDING * x))
+            return x + newton;
+        const double next = x + newton;
+        step = newton;
+        x = shorter && next > low && next < high ? next : (low + high) / 2;
     }
     return x;
 }
 
 void dg_wave_at(dg_wave *w, const dg_track *t, double p, int branch)
 {
-    const double Y = p * p, X = root_of(t, Y, branch);
+    dg_wave_near(w, t, p, branch, 0);
+}
+
+void dg_wave_near(dg_wave *w, const dg_track *t, double p, int branch, double omega)
+{
+    const double Y = p * p, X = root_of(t, Y, branch, omega * omega);
     cubic o;
     cubic_at(&o, t, X, Y);
     const double first = -o.y / o.x; /* dX/dY on the branch */

@@ -19,6 +19,8 @@ typedef struct {
 /* Any p >= 0; branch 0, 1 or 2. Relative error of omega a few units of 1e-16; group and curvature lose as
  * many digits as their terms cancel. */
 void dg_wave_at(dg_wave *w, const dg_track *t, double p, int branch);
+/* The same, faster when omega is near the frequency; 0: not known. */
+void dg_wave_near(dg_wave *w, const dg_track *t, double p, int branch, double omega);
 
 /* How far damping moves a branch point of that wave off the real q axis, to first order in the damping:
  * |Im Delta / (d Delta/dq)| at the real p and sigma = -omega of the undamped wave. */
