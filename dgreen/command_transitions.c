@@ -110,9 +110,8 @@ static cv_status find_and_write(const cv_choice *choice, const cv_selection *s, 
     a.lists = calloc(a.count, sizeof *a.lists);
     if (a.lists == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
-    cv_status status =
-        dg_find_transitions(a.lists, &a.effort, &choice->params, &choice->file.alpha_min,
-                            &choice->file.alpha_max, a.count, a.masses, choice->digits, 0, why);
+    cv_status status = dg_find_transitions(a.lists, &a.effort, &choice->params, &choice->file.alpha_min,
+                                           &choice->file.alpha_max, a.count, a.masses, choice->digits, 0, why);
     if (status == CV_OK)
         status = s->format == CV_FORMAT_JSON ? write_json(&a, out, why) : write_text(&a, out, why);
     for (size_t i = 0; i < a.count; i++) {
