@@ -13,7 +13,8 @@ PKGS      = gsl lapacke inih jansson mpfr gmp
 DEBS      = gcc libc6-dev make pkg-config libgsl-dev liblapacke-dev libmpfr-dev libmpc-dev libgmp-dev \
             libinih-dev libjansson-dev check gnuplot-nox
 
-STD       = -std=c17 -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE
+# no-math-errno: sqrt is an instruction, and loops with it can use vectors
+STD       = -std=c17 -fno-math-errno -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE
 HAVE     := $(shell pkg-config --exists $(PKGS) 2>/dev/null && echo yes)
 PKG_CPP  := $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 PKG_LIBS := $(shell pkg-config --libs $(PKGS) 2>/dev/null)

@@ -10,23 +10,31 @@
 #ifndef CRITVEL_DGREEN_BOUNDS_H
 #define CRITVEL_DGREEN_BOUNDS_H
 
+#include <float.h>
+
 #include "common/status.h"
 #include "dgreen/operator.h"
 
 typedef struct {
     int count, far;
-    double unit;                           /* u */
-    double value[DG_DEGREE];               /* |f| with its rounding error, units */
-    double slope[DG_DEGREE];               /* |f'| as computed */
-    double slope_error[DG_DEGREE];         /* rounding error of f', units */
-    double modulus[DG_DEGREE];             /* of the approximations; of u for the far root */
-    double distance[DG_DEGREE][DG_DEGREE]; /* between near approximations */
+    double unit;                   /* u */
+    double value[DG_DEGREE];       /* |f| with its rounding error, units */
+    double slope[DG_DEGREE];       /* |f'| as computed */
+    double slope_error[DG_DEGREE]; /* rounding error of f', units */
+    double modulus[DG_DEGREE];     /* of the approximations; of u for the far root */
+    /* [k][i]: between near approximations i and i + k (modulo DG_DEGREE), k > 0; infinite where one of them
+     * is not there */
+    double distance[DG_DEGREE][DG_DEGREE];
 } dg_separation;
+
+/* No root is there yet: all distances infinite. */
+void dg_separation_open(dg_separation *s, int count, int far, double unit);
+void dg_separation_set_distance(dg_separation *s, int i, int k, double distance);
 
 /* crowding[i]: the sum above for root i. radius[i] (units): the disc around approximation i holds exactly one
  * root of f; in the u plane for the far root. slope_relative[i] (units): relative error of the computed f' as
  * value of f' at the exact root. CV_UNDECIDED when discs meet, or when f' is lost in rounding (relative error
- * above 0.1). */
+ * above 0.1). The arrays have DG_DEGREE elements; those from s->count on are lost. */
 cv_status dg_separate(double *radius, double *slope_relative, double *crowding, const dg_separation *s);
 
 /* Rounding, in units times the size polynomial at |y|. Parameters, alpha and qbar are within 2 units of the
@@ -43,8 +51,8 @@ cv_status dg_separate(double *radius, double *slope_relative, double *crowding, 
  * the slope at most 8 DG_R_UNITS size/reach. */
 static inline double dg_numerator_error(double size, double slope, double reach, double radius, double unit)
 {
-    const double relative = reach > 0 ? radius * unit / reach : 0;
-    const double second = reach > 0 ? 6 * size * relative * (radius / reach) : 0;
+    const double inverse = 1 / (reach + DBL_MIN); /* at reach = 0, with a unit that underflows, all is 0 */
+    const double relative = radius * unit * inverse, second = 6 * size * (relative * radius) * inverse;
     return DG_R_UNITS * size * (1 + 8 * relative) + radius * slope + second;
 }
 

@@ -67,11 +67,10 @@ static double step_at(const dg_station *at, double q, double part)
     double step = part * q;
     for (size_t i = 0; i < at->count; i++) {
         const dg_branch_point *point = &at->points[i];
-        const double distance = fabs(q - point->q), room = hypot(distance, CORE * point->width);
-        if (point->q <= q)
-            step = fmin(step, part * room);
-        else
-            step = fmin(step, fmin(part / (1 + part) * room, distance));
+        const double distance = fabs(q - point->q), core = CORE * point->width;
+        const double room = sqrt(distance * distance + core * core);
+        const double own = point->q <= q ? part * room : fmin(part / (1 + part) * room, distance);
+        step = own < step ? own : step;
     }
     return fmax(step, 4 * SPACING * q);
 }

@@ -25,13 +25,22 @@ void dg_station_clear(dg_station *s)
     *s = (dg_station){0};
 }
 
+/* asinh x = +-log(|x| + sqrt(x^2 + 1)): one logarithm for products as long as they are in the range of
+ * doubles. */
 double dg_station_position(const dg_station *s, double q)
 {
-    double position = log(q);
-    for (size_t i = 0; i < s->count; i++)
-        if (!s->points[i].soft)
-            position += asinh((q - s->points[i].q) / s->points[i].width);
-    return position;
+    double position = 0, product = q;
+    for (size_t i = 0; i < s->count; i++) {
+        if (s->points[i].soft)
+            continue;
+        const double x = (q - s->points[i].q) / s->points[i].width, factor = fabs(x) + sqrt(x * x + 1);
+        product = x < 0 ? product / factor : product * factor;
+        if (!(product > 1e-200 && product < 1e200)) {
+            position += log(product);
+            product = 1;
+        }
+    }
+    return position + log(product);
 }
 
 double dg_station_frequency(const dg_station *s, double position)
@@ -50,10 +59,13 @@ double dg_station_frequency(const dg_station *s, double position)
 
 double dg_station_scale(const dg_station *s, double q)
 {
-    double scale = q;
-    for (size_t i = 0; i < s->count; i++)
-        scale = fmin(scale, hypot(q - s->points[i].q, s->points[i].width));
-    return scale;
+    double square = q * q;
+    for (size_t i = 0; i < s->count; i++) {
+        const double distance = q - s->points[i].q, width = s->points[i].width;
+        const double own = distance * distance + width * width;
+        square = own < square ? own : square;
+    }
+    return sqrt(square);
 }
 
 const dg_branch_point *dg_station_nearest(const dg_station *s, double q)

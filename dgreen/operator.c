@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dgreen/lanes.h"
+
 const mpfr_prec_t dg_ladder[DG_LADDER] = {127, 191, 255};
 
 static void set_doubles(dg_track *t)
@@ -87,44 +89,46 @@ void dg_track_free(dg_track *t)
     free(t);
 }
 
-/* A polynomial in y with the sizes of the parts of its coefficients; the degree is known where it is used. */
+/* A polynomial in y with the sizes of the parts of its coefficients. Coefficient k is element ZEROS + k,
+ * behind ZEROS zeros, so that loops for vector instructions can run over all coefficients of a product. */
+enum { ZEROS = 4, WIDTH = 8 };
 typedef struct {
-    double re[DG_DEGREE + 1], im[DG_DEGREE + 1], size_re[DG_DEGREE + 1], size_im[DG_DEGREE + 1];
+    double re[ZEROS + WIDTH], im[ZEROS + WIDTH], size_re[ZEROS + WIDTH], size_im[ZEROS + WIDTH];
 } polynomial;
 
-/* sum += factor * a * b */
-static inline void add_product(polynomial *sum, double factor, const polynomial *a, int degree_a,
-                               const polynomial *b, int degree_b)
+/* sum += factor * a * b, as far as the degree is below WIDTH; degree_a <= ZEROS */
+DG_PART void add_product(polynomial *restrict sum, double factor, const polynomial *restrict a, int degree_a,
+                         const polynomial *restrict b)
 {
     for (int i = 0; i <= degree_a; i++) {
-        const double re = factor * a->re[i], im = factor * a->im[i];
-        const double size_re = factor * a->size_re[i], size_im = factor * a->size_im[i];
-        for (int j = 0; j <= degree_b; j++) {
-            sum->re[i + j] += re * b->re[j] - im * b->im[j];
-            sum->im[i + j] += re * b->im[j] + im * b->re[j];
-            sum->size_re[i + j] += size_re * b->size_re[j] + size_im * b->size_im[j];
-            sum->size_im[i + j] += size_re * b->size_im[j] + size_im * b->size_re[j];
+        const double re = factor * a->re[ZEROS + i], im = factor * a->im[ZEROS + i];
+        const double size_re = factor * a->size_re[ZEROS + i], size_im = factor * a->size_im[ZEROS + i];
+        for (int k = ZEROS; k < ZEROS + WIDTH; k++) {
+            sum->re[k] += re * b->re[k - i] - im * b->im[k - i];
+            sum->im[k] += re * b->im[k - i] + im * b->re[k - i];
+            sum->size_re[k] += size_re * b->size_re[k - i] + size_im * b->size_im[k - i];
+            sum->size_im[k] += size_re * b->size_im[k - i] + size_im * b->size_re[k - i];
         }
     }
 }
 
-static inline void add(polynomial *sum, const polynomial *a, int degree)
+DG_PART void add(polynomial *sum, const polynomial *a)
 {
-    for (int i = 0; i <= degree; i++) {
-        sum->re[i] += a->re[i];
-        sum->im[i] += a->im[i];
-        sum->size_re[i] += a->size_re[i];
-        sum->size_im[i] += a->size_im[i];
+    for (int k = ZEROS; k < ZEROS + WIDTH; k++) {
+        sum->re[k] += a->re[k];
+        sum->im[k] += a->im[k];
+        sum->size_re[k] += a->size_re[k];
+        sum->size_im[k] += a->size_im[k];
     }
 }
 
 /* A term of coefficient k, with its size */
-static inline void add_term(polynomial *sum, int k, double re, double im)
+DG_PART void add_term(polynomial *sum, int k, double re, double im)
 {
-    sum->re[k] += re;
-    sum->im[k] += im;
-    sum->size_re[k] += fabs(re);
-    sum->size_im[k] += fabs(im);
+    sum->re[ZEROS + k] += re;
+    sum->im[ZEROS + k] += im;
+    sum->size_re[ZEROS + k] += fabs(re);
+    sum->size_im[ZEROS + k] += fabs(im);
 }
 
 /* s = i (w - alpha y), w = -i qbar */
@@ -133,7 +137,7 @@ typedef struct {
 } shift;
 
 /* sum += factor * s^2 */
-static inline void add_square(polynomial *sum, double factor, const shift *s)
+DG_PART void add_square(polynomial *sum, double factor, const shift *s)
 {
     add_term(sum, 0, -factor * s->w_re * s->w_re, -2 * factor * s->w_re * s->w_im);
     add_term(sum, 0, factor * s->w_im * s->w_im, 0);
@@ -142,44 +146,52 @@ static inline void add_square(polynomial *sum, double factor, const shift *s)
 }
 
 /* sum += 2 eta s + kappa */
-static inline void add_spring(polynomial *sum, double eta, double kappa, const shift *s)
+DG_PART void add_spring(polynomial *sum, double eta, double kappa, const shift *s)
 {
     add_term(sum, 0, kappa, 0);
     add_term(sum, 0, -2 * eta * s->w_im, 2 * eta * s->w_re);
     add_term(sum, 1, 0, -2 * eta * s->alpha);
 }
 
-static void set_beam(polynomial *a, const dg_track *t, const shift *s)
+DG_PART void set_beam(polynomial *a, const dg_track *t, const shift *s)
 {
     add_square(a, 4, s);
     add_term(a, 2, -4 * t->eta_N, 0);
     add_term(a, 4, 1, 0);
 }
 
-static void set_foundation(polynomial *f, const dg_track *t, const shift *s)
+DG_PART void set_foundation(polynomial *f, const dg_track *t, const shift *s)
 {
     add_spring(f, t->eta_f, 1, s);
     add_square(f, t->mu_b, s);
     add_term(f, 2, t->eta_s, 0);
 }
 
-static void store(dg_operator *op, const polynomial *delta, const polynomial *r)
+/* The leading coefficient of Delta is that of R, for that of A is 1 and of degree 4. */
+DG_PART void store(dg_operator *op, const polynomial *delta, const polynomial *r)
 {
-    memcpy(op->re, delta->re, sizeof op->re);
-    memcpy(op->im, delta->im, sizeof op->im);
-    memcpy(op->size_re, delta->size_re, sizeof op->size_re);
-    memcpy(op->size_im, delta->size_im, sizeof op->size_im);
-    memcpy(op->r_re, r->re, sizeof op->r_re);
-    memcpy(op->r_im, r->im, sizeof op->r_im);
-    memcpy(op->r_size_re, r->size_re, sizeof op->r_size_re);
-    memcpy(op->r_size_im, r->size_im, sizeof op->r_size_im);
+    for (int k = 0; k < DG_DEGREE; k++) {
+        op->re[k] = delta->re[ZEROS + k];
+        op->im[k] = delta->im[ZEROS + k];
+        op->size_re[k] = delta->size_re[ZEROS + k];
+        op->size_im[k] = delta->size_im[ZEROS + k];
+    }
+    for (int k = 0; k <= DG_R_DEGREE; k++) {
+        op->r_re[k] = r->re[ZEROS + k];
+        op->r_im[k] = r->im[ZEROS + k];
+        op->r_size_re[k] = r->size_re[ZEROS + k];
+        op->r_size_im[k] = r->size_im[ZEROS + k];
+        op->r_size[k] = op->r_size_re[k] + op->r_size_im[k];
+    }
+    op->re[DG_DEGREE] = op->r_re[DG_R_DEGREE];
+    op->im[DG_DEGREE] = op->r_im[DG_R_DEGREE];
+    op->size_re[DG_DEGREE] = op->r_size_re[DG_R_DEGREE];
+    op->size_im[DG_DEGREE] = op->r_size_im[DG_R_DEGREE];
     for (int k = 0; k <= DG_DEGREE; k++)
         op->size[k] = op->size_re[k] + op->size_im[k];
-    for (int k = 0; k <= DG_R_DEGREE; k++)
-        op->r_size[k] = op->r_size_re[k] + op->r_size_im[k];
 }
 
-void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double complex qbar)
+DG_CLONES void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double complex qbar)
 {
     const shift s = {alpha, cimag(qbar), -creal(qbar)};
     polynomial beam = {0}, pad = {0}, sleeper = {0}, ballast = {0}, foundation = {0};
@@ -190,13 +202,13 @@ void dg_operator_set(dg_operator *op, const dg_track *t, double alpha, double co
     set_foundation(&foundation, t, &s);
 
     polynomial c = foundation, inner = {0}, r, delta = {0};
-    add(&c, &ballast, 1);
-    add_product(&inner, 1, &sleeper, 2, &c, 2);
-    add_product(&inner, 1, &ballast, 1, &foundation, 2);
+    add(&c, &ballast);
+    add_product(&inner, 1, &sleeper, 2, &c);
+    add_product(&inner, 1, &ballast, 1, &foundation);
     r = inner;
-    add_product(&r, 1, &pad, 1, &c, 2);
-    add_product(&delta, 4, &pad, 1, &inner, 4);
-    add_product(&delta, 1, &beam, 4, &r, 4);
+    add_product(&r, 1, &pad, 1, &c);
+    add_product(&delta, 4, &pad, 1, &inner);
+    add_product(&delta, 1, &beam, 4, &r);
     store(op, &delta, &r);
     const double inertia = alpha * alpha * t->mu_b;
     op->degree = alpha > 0 ? DG_DEGREE : t->eta_s > 0 ? 6 : 4;

@@ -4,11 +4,7 @@
 #include <lapacke.h>
 #include <math.h>
 
-#if defined(__x86_64__) && defined(__GLIBC__)
-#define CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define CLONES
-#endif
+#include "dgreen/lanes.h"
 
 /* Value and slope of the reversed polynomial at u. */
 typedef struct {
@@ -120,33 +116,9 @@ cv_status dg_roots_cold(dg_roots *roots, const dg_operator *op)
     return CV_OK;
 }
 
-/* One number per root; loops over all of them are meant for vector instructions. A slot without a near root
- * has its coordinates at NOWHERE, so far out that it neither repels nor is near to any other. */
-typedef struct {
-    double of[DG_DEGREE];
-} lanes;
-static const double NOWHERE = 1e200;
-
-/* The near roots, twice in a row, so that "k places further" is contiguous */
-typedef struct {
-    double re[2 * DG_DEGREE], im[2 * DG_DEGREE];
-} ring;
-
-static inline ring ring_of(const dg_roots *r)
-{
-    ring at;
-    const int near = r->count - r->far;
-    for (int i = 0; i < 2 * DG_DEGREE; i++) {
-        const int k = i % DG_DEGREE;
-        at.re[i] = k < near ? r->re[k] : NOWHERE;
-        at.im[i] = k < near ? r->im[k] : NOWHERE;
-    }
-    return at;
-}
-
 /* Horner for value and derivative of Delta(i y) at all near roots */
-static inline void evaluate_all(lanes *f_re, lanes *f_im, lanes *d_re, lanes *d_im, const dg_operator *op,
-                                const ring *y)
+DG_PART void evaluate_all(dg_lanes *f_re, dg_lanes *f_im, dg_lanes *d_re, dg_lanes *d_im,
+                          const dg_operator *op, const dg_ring *y)
 {
     for (int i = 0; i < DG_DEGREE; i++) {
         f_re->of[i] = op->re[op->degree];
@@ -167,7 +139,7 @@ static inline void evaluate_all(lanes *f_re, lanes *f_im, lanes *d_re, lanes *d_
 }
 
 /* sum over k != i of 1/(y_i - y_k); nearest: 1/distance^2 of the closest */
-static inline void repulsion(lanes *a_re, lanes *a_im, lanes *nearest, const ring *y)
+DG_PART void repulsion(dg_lanes *a_re, dg_lanes *a_im, dg_lanes *nearest, const dg_ring *y)
 {
     for (int i = 0; i < DG_DEGREE; i++)
         a_re->of[i] = a_im->of[i] = nearest->of[i] = 0;
@@ -182,7 +154,7 @@ static inline void repulsion(lanes *a_re, lanes *a_im, lanes *nearest, const rin
 }
 
 /* 1/(y - 1/u) = u/(u y - 1) */
-static inline void add_far_repulsion(lanes *a_re, lanes *a_im, const dg_roots *r)
+DG_PART void add_far_repulsion(dg_lanes *a_re, dg_lanes *a_im, const dg_roots *r)
 {
     const int near = r->count - 1;
     const double complex u = CMPLX(r->re[near], r->im[near]);
@@ -195,10 +167,11 @@ static inline void add_far_repulsion(lanes *a_re, lanes *a_im, const dg_roots *r
 
 /* One Ehrlich-Aberth update N/(1 - N A) of all near roots, N = f/f'. moved: (|step| / distance to the
  * nearest)^2 */
-static inline void update_near(lanes *moved, dg_roots *r, const dg_operator *op)
+DG_PART void update_near(dg_lanes *moved, dg_roots *r, const dg_operator *op)
 {
-    lanes f_re, f_im, d_re, d_im, a_re, a_im;
-    const ring y = ring_of(r);
+    dg_lanes f_re, f_im, d_re, d_im, a_re, a_im;
+    dg_ring y;
+    dg_ring_set(&y, r);
     evaluate_all(&f_re, &f_im, &d_re, &d_im, op, &y);
     repulsion(&a_re, &a_im, moved, &y);
     if (r->far)
@@ -241,9 +214,9 @@ static int settled(double moved, double last)
     return moved < SETTLED || (moved < SHORT && moved > SHORTER * last);
 }
 
-CLONES static cv_status polish(dg_roots *roots, const dg_operator *op, int sweeps)
+DG_CLONES static cv_status polish(dg_roots *roots, const dg_operator *op, int sweeps)
 {
-    lanes moved, last;
+    dg_lanes moved, last;
     choose_form(roots, op);
     for (int i = 0; i < DG_DEGREE; i++)
         last.of[i] = HUGE_VAL;

@@ -119,13 +119,14 @@ static int measure(dg_separation *s, dg_dd_roots *r, const dg_dd_operator *op, i
 
 static cv_status enclose(dg_dd_roots *r, const dg_dd_operator *op)
 {
-    dg_separation s = {.count = r->count, .far = r->far, .unit = DG_DD_UNIT};
+    dg_separation s;
+    dg_separation_open(&s, r->count, r->far, DG_DD_UNIT);
     const int near = s.count - s.far;
     for (int i = 0; i < s.count; i++) {
         if (!measure(&s, r, op, i, i >= near))
             return CV_UNDECIDED;
-        for (int k = 0; k < i; k++)
-            s.distance[i][k] = s.distance[k][i] = cabs(difference(r->y[i], r->y[k]));
+        for (int k = 0; k < i && i < near; k++)
+            dg_separation_set_distance(&s, i, k, cabs(difference(r->y[i], r->y[k])));
     }
     return dg_separate(r->radius, r->slope_relative, r->crowding, &s);
 }

@@ -188,14 +188,12 @@ static void sample(dg_mp_roots *roots, dg_separation *s, const dg_mp_operator *o
 static cv_status enclose(dg_mp_roots *roots, const dg_mp_operator *op)
 {
     dg_separation s;
-    s.count = roots->count;
-    s.far = roots->far;
-    s.unit = roots->unit;
+    dg_separation_open(&s, roots->count, roots->far, roots->unit);
     const int near = s.count - s.far;
     for (int i = 0; i < s.count; i++) {
         sample(roots, &s, op, i, i >= near);
-        for (int k = 0; k < i; k++)
-            s.distance[i][k] = s.distance[k][i] = cabs(difference(roots, roots->y[i], roots->y[k]));
+        for (int k = 0; k < i && i < near; k++)
+            dg_separation_set_distance(&s, i, k, cabs(difference(roots, roots->y[i], roots->y[k])));
     }
     return dg_separate(roots->radius, roots->slope_relative, roots->crowding, &s);
 }
