@@ -34,7 +34,7 @@ double sa_map_gap(double q)
  * nothing of interest is nearer. Falls to zero, with its slope, as the damping grows. */
 static void place_gap(sa_map_node *node, int i, const sa_map *map, double damping, double damping_slope)
 {
-    const double damped = 2e-13, relative = map->undamped ? 2 * sa_map_gap(0) : damped;
+    const double damped = 2e-15, relative = map->undamped ? 2 * sa_map_gap(0) : damped;
     double resolved = relative * (1 + node->q[i]), slope = relative * limited(node->slope[i], 1e5);
     double x = damping / resolved, y = 1 - x * x;
     node->gap[i] = x < 1 ? resolved / 2 * y * y : 0;
