@@ -99,6 +99,18 @@ static cv_status check_ends(const dg_curve *c, cv_message *why)
     return CV_OK;
 }
 
+/* Where the curve begins: zeta ~ q^2 is small there. Without damping no branch point is below, because zeta
+ * is infinite at each. */
+static double first_frequency(const dg_curve *c, const dg_probe *p)
+{
+    const double small = 1e-6, none = 1e-300;
+    double q = small;
+    for (size_t i = 0; i < c->at.count && !p->track->damped; i++)
+        if (!c->at.points[i].soft && c->at.points[i].q > none)
+            q = fmin(q, c->at.points[i].q / 2);
+    return q;
+}
+
 cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why)
 {
     cv_status status = dg_station_set(&c->at, p->branches, alpha, why);
@@ -107,8 +119,8 @@ cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_flo
     c->x_floor = x_floor;
     c->node_count = c->crossing_count = c->dip_count = 0;
     const double top = c->at.count ? c->at.points[c->at.count - 1].q : 0;
-    const double q_first = 1e-6, q_last = 20 * (1 + alpha * alpha) + 5 * top;
-    status = lay_nodes(c, p, q_first, q_last, why);
+    const double q_last = 20 * (1 + alpha * alpha) + 5 * top;
+    status = lay_nodes(c, p, first_frequency(c, p), q_last, why);
     if (status != CV_OK)
         return status;
     dg_curve_sort(c);

@@ -42,8 +42,10 @@ typedef struct {
  * that may hide two zeros, and where the curve turns. Ends: q so small that |zeta| < x_floor/2 with |zeta| ~
  * q^2 before it, and so large that the bare rail (Re zeta < 0, Im zeta < 0) rules. Not found: two zeros of Im
  * zeta between consecutive nodes if neither |Im zeta| shows a minimum there nor the cubic a surprise. x_floor
- * > 0. *c must be zero or a former curve, whose memory is used again. CV_UNDECIDED: a sign could not be
- * certified, or one of the ends could not be reached. */
+ * > 0. Without damping the curve goes to infinity at every hard branch point, from one axis to the other: a
+ * crossing there has x = x_low = x_high = INFINITY, whatever the nodes beside it show: |zeta| ~ C/sqrt(q -
+ * q_b) may be small at the nearest double. *c must be zero or a former curve, whose memory is used again.
+ * CV_UNDECIDED: a sign could not be certified, or one of the ends could not be reached. */
 cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why);
 void dg_curve_clear(dg_curve *c);
 

@@ -149,6 +149,12 @@ static cv_status push_dip(dg_curve *c, const dg_probe *p, const dg_node *n, cv_m
     return status;
 }
 
+/* Without damping zeta passes through infinity between a and b. */
+static int passes_infinity(const dg_curve *c, const dg_probe *p, double a, double b)
+{
+    return !p->track->damped && dg_station_straddles(&c->at, a, b);
+}
+
 static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_message *why)
 {
     dg_crossing x;
@@ -156,6 +162,8 @@ static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_mess
     cv_status status = dg_curve_cross(&x, p, &c->at, &a, &b);
     if (status != CV_OK)
         return cv_fail(why, status, "crossing at alpha = %.17g, q = %.17g not resolved", c->at.alpha, x.q);
+    if (x.x > 0 && passes_infinity(c, p, x.q_low, x.q_high))
+        x.x = x.x_low = x.x_high = INFINITY;
     if (x.x >= c->x_floor)
         status = push_crossing(c, &x, why);
     if (status == CV_OK && x.q_low > a.q)
@@ -194,7 +202,7 @@ cv_status dg_curve_list(dg_curve *c, const dg_probe *p, cv_message *why)
         const dg_node *a = &c->nodes[i];
         if (positive(a) != positive(a + 1)) {
             status = sharpen(c, p, i);
-            if (status == CV_OK && relevant(c, i, n))
+            if (status == CV_OK && (relevant(c, i, n) || passes_infinity(c, p, a->q, a[1].q)))
                 status = list_crossing(c, p, i, why);
         } else if (i > 0 && a->re > c->x_floor && positive(a - 1) == positive(a) &&
                    fabs(a->im) < fmin(fabs(a[-1].im), fabs(a[1].im)) && fabs(a->im) < 3 * a->re) {

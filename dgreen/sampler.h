@@ -10,7 +10,6 @@ typedef struct {
     dg_follow *follow;
     dg_branch_curves *branches;
     dg_curve curve; /* the last one sampled; its memory is used again */
-    int undamped;   /* the damping of params is zero */
 } dg_sampler;
 
 /* 0 < alpha_min <= alpha_max; params must have passed cv_params_check. One thread at a time. On failure
@@ -27,8 +26,7 @@ void dg_sampler_clear(dg_sampler *s);
 /* For the functions of curve.h */
 dg_probe dg_sampler_probe(const dg_sampler *s);
 
-/* The curve at alpha down to x_floor (dg_curve_at). Without damping it goes to infinity at every branch
- * point, from one axis to the other: a crossing there has x = INFINITY. */
+/* The curve at alpha down to x_floor (dg_curve_at) */
 cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_message *why);
 
 /* Number of roots of zeta = x > x_floor with Re qbar > 0, from the curve (dg_winding, with the crossings near

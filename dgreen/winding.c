@@ -1,5 +1,6 @@
 #include "dgreen/winding.h"
 
+#include <complex.h>
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -33,13 +34,31 @@ static double turn(int *passes, const dg_node *a, const dg_node *b, double x)
     return atan2(up, across);
 }
 
+/* arg(b - x) - arg(a - x) on the way from a to infinity, there round to the direction of b, and back to b. */
+static double turn_at_infinity(const dg_node *a, const dg_node *b, double x)
+{
+    const double complex one = CMPLX(a->re, a->im), other = CMPLX(b->re, b->im);
+    return carg(one / (one - x)) + carg(other / one) + carg((other - x) / other);
+}
+
+/* Whether one of the crossings between two nodes is at infinity */
+static int infinite(const dg_curve *c, const dg_node *a, const dg_node *b)
+{
+    for (size_t i = 0; i < c->crossing_count; i++)
+        if (isinf(c->crossings[i].x) && c->crossings[i].q_low >= a->q && c->crossings[i].q_high <= b->q)
+            return 1;
+    return 0;
+}
+
 cv_status dg_winding(int *roots, const dg_curve *c, double x, cv_message *why)
 {
     const dg_node *first = &c->nodes[0], *last = &c->nodes[c->node_count - 1];
     int passes = dg_curve_touches(c, x);
     double sum = atan2(-first->im, x - first->re); /* zeta(0) = 0 */
-    for (size_t i = 0; i + 1 < c->node_count; i++)
-        sum += turn(&passes, &c->nodes[i], &c->nodes[i + 1], x);
+    for (size_t i = 0; i + 1 < c->node_count; i++) {
+        const dg_node *a = &c->nodes[i], *b = a + 1;
+        sum += infinite(c, a, b) ? turn_at_infinity(a, b, x) : turn(&passes, a, b, x);
+    }
     sum += PI / 4 - atan2(-last->im, x - last->re); /* the bare rail to infinity */
     if (passes)
         return cv_fail(why, CV_UNDECIDED, "a root on the stability boundary at alpha = %.17g", c->at.alpha);

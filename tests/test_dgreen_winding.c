@@ -182,6 +182,24 @@ START_TEST(undamped_is_the_limit)
 }
 END_TEST
 
+/* Case 1 without damping: at the lowest resonance velocity, sa_resonances: 0.15090146494801031, a branch
+ * point leaves q = 0 and the mass loses stability, however light it is. There zeta is infinite, though it is
+ * small at the nearest double when the branch point is still near to q = 0. */
+START_TEST(undamped_resonance_velocity)
+{
+    const double resonance = 0.15090146494801031;
+    dg_track *none = track_of("6 35 300 7 0 0 0 0 0");
+    dg_counter *c = counter_of(none);
+    for (double away = 1e-3; away > 5e-12; away /= 10)
+        for (double mass = 0.1; mass < 2e4; mass *= 10) {
+            ck_assert_int_eq(count_of(c, resonance * (1 - away), mass), 0);
+            ck_assert_int_eq(count_of(c, resonance * (1 + away), mass), 2);
+        }
+    dg_counter_free(c);
+    dg_track_free(none);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dgreen winding");
@@ -192,6 +210,7 @@ int main(void)
     tcase_add_test(c, counts_are_even);
     tcase_add_test(c, close_to_a_transition);
     tcase_add_test(c, undamped_is_the_limit);
+    tcase_add_test(c, undamped_resonance_velocity);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
