@@ -244,7 +244,7 @@ START_TEST(what_a_method_calls_undecided_stays_undecided)
     }
     expect(judge_lists(&a, &b), CMP_UNDECIDED, "dgreen could not decide");
     /* but what it does claim counts */
-    b.items[0].above = 4;
+    b.items[0].above = b.items[0].below + 4;
     expect(judge_lists(&a, &b), CMP_DISAGREE, "");
     cmp_list_clear(&a);
     cmp_list_clear(&b);
