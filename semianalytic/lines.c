@@ -22,6 +22,7 @@ static void store_free(sa_line_store *s)
     if (s == NULL)
         return;
     sa_field_free(s->field);
+    sa_field_free(s->sharp);
     sa_sweep_free(s->sweep);
     sa_map_clear(&s->map);
     sa_track_free(s->track);
@@ -36,14 +37,29 @@ static void store_free(sa_line_store *s)
     free(s);
 }
 
-static void set_plot(sa_line_store *s)
+/* Sets the plot. Returns Re zeta so small that q is, and lines stand upright on asymptotes. */
+static double set_plot(sa_line_store *s)
 {
     double low = cv_number_get_double(&s->mass_min), high = cv_number_get_double(&s->mass_max);
     s->plot.alpha_span = cv_number_get_double(&s->alpha_max) - cv_number_get_double(&s->alpha_min);
     s->plot.log_span = log(high / low);
     s->plot.re_low = 1 / high;
     s->plot.re_high = 1 / low;
-    s->re_floor = fmin(1e-9, 0.1 / high); /* there q is so small that lines stand upright on asymptotes */
+    return fmin(1e-9, 0.1 / high);
+}
+
+static cv_status set_floor(sa_line_store *s, double re_floor)
+{
+    const double sharp = 1e-6;
+    sa_field_free(s->field);
+    sa_field_free(s->sharp);
+    s->re_floor = re_floor;
+    s->field = sa_field_new(&s->map, s->track, re_floor / 4);
+    s->sharp = sa_field_new(&s->map, s->track, re_floor / 4);
+    if (s->field == NULL || s->sharp == NULL)
+        return CV_FAILED;
+    sa_field_resolution(s->sharp, sharp);
+    return CV_OK;
 }
 
 static cv_status store_new(sa_line_store **out, const cv_params *params, const sa_lines_range *range,
@@ -61,7 +77,7 @@ static cv_status store_new(sa_line_store **out, const cv_params *params, const s
         cv_number_init(to[i]);
         cv_number_set(to[i], from[i]);
     }
-    set_plot(s);
+    const double re_floor = set_plot(s);
     cv_status status = sa_track_new(&s->track, params, why);
     if (status == CV_OK)
         status = sa_map_build(&s->map, params, cv_number_get_double(range->alpha_min),
@@ -69,8 +85,9 @@ static cv_status store_new(sa_line_store **out, const cv_params *params, const s
     if (status != CV_OK)
         return status;
     s->sweep = sa_sweep_new();
-    s->field = sa_field_new(&s->map, s->track, s->re_floor / 4);
-    return s->sweep != NULL && s->field != NULL ? CV_OK : cv_fail(why, CV_FAILED, "out of memory");
+    if (set_floor(s, re_floor) == CV_OK && s->sweep != NULL)
+        return CV_OK;
+    return cv_fail(why, CV_FAILED, "out of memory");
 }
 
 static void forget(sa_lines *lines)
@@ -97,7 +114,8 @@ static const sa_line_effort little = {150000, 8000}, much = {0, 100000};
 static cv_status run_pass(int *exhausted, sa_lines *lines, int refinement, const sa_line_effort *effort)
 {
     sa_line_store *s = lines->store;
-    sa_line_trace trace = {.map = &s->map, .plot = s->plot, .re_floor = s->re_floor};
+    sa_line_trace trace = {
+        .map = &s->map, .plot = s->plot, .re_floor = s->re_floor, .sharp = s->sharp};
     forget(lines);
     cv_status status = sa_lines_trace(&trace, s->field, refinement, effort);
     *exhausted = status == CV_UNDECIDED;
@@ -114,14 +132,6 @@ static cv_status run_pass(int *exhausted, sa_lines *lines, int refinement, const
             sa_lines_doubt(lines, trace.place[i][0], trace.place[i][1], "lines meet or cannot be resolved");
     sa_line_trace_clear(&trace);
     return status;
-}
-
-static cv_status set_floor(sa_line_store *s, double re_floor)
-{
-    sa_field_free(s->field);
-    s->re_floor = re_floor;
-    s->field = sa_field_new(&s->map, s->track, s->re_floor / 4);
-    return s->field != NULL ? CV_OK : CV_FAILED;
 }
 
 /* Where Re zeta is tiny, Im zeta may be tiny, too, and cost very many cells: then what is above the largest

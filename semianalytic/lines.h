@@ -144,6 +144,9 @@ typedef enum { SA_GIVEN_ALPHA, SA_GIVEN_Q } sa_line_given;
  * positive. */
 cv_status sa_line_point(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
                         sa_line_given which, const mpfr_t given, double start, int digits);
+/* The same from a start in any precision. */
+cv_status sa_line_point_from(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
+                             sa_line_given which, const mpfr_t given, const mpfr_t start, int digits);
 void sa_line_vertex_clear(sa_line_vertex *vertex);
 
 #endif

@@ -209,37 +209,58 @@ static cv_status match(sa_lines *lines, const descent *d, size_t count)
     return status;
 }
 
-/* The runner has come back to the floor at the other end of its own line: it is closed. */
-static int comes_round(const sa_line_store *store, size_t number, int at, const runner *r)
+/* Distance of the runner, back at the floor, from the beginning (at = 1: the runner has left the end of a
+ * line) or end of a line, in parts of what it may be; infinite where that line is known to go elsewhere. */
+static double distance_from(const sa_line_store *store, size_t number, int at, const runner *r)
 {
     const double reach = 0.7;
     const sa_line *line = &store->line[number];
     const sa_line_sample *s = &store->samples.item[line->first + (at == 0 ? line->count - 1 : 0)];
     const sa_line_end *end = &store->end[number][!at];
-    return end->kind == SA_END_MASS_HIGH && end->beyond == SA_BEYOND_NOTHING &&
-           fabs(log(s->q / r->q)) < reach && fabs(s->alpha - r->alpha) < reach * fabs(r->slope) + 1e-9;
+    if (line->closed || end->kind != SA_END_MASS_HIGH || end->beyond != SA_BEYOND_NOTHING)
+        return INFINITY;
+    return fmax(fabs(log(s->q / r->q)) / reach, fabs(s->alpha - r->alpha) / (reach * fabs(r->slope) + 1e-9));
+}
+
+/* The line that the runner has come back to; its own is a closed one then. line_count: none. */
+static size_t comes_back(const sa_line_store *store, int at, const runner *r)
+{
+    size_t best = store->line_count;
+    double nearest = 1;
+    for (size_t i = 0; i < store->line_count; ++i) {
+        const double distance = distance_from(store, i, at, r);
+        if (distance < nearest) {
+            nearest = distance;
+            best = i;
+        }
+    }
+    return best;
 }
 
 /* A line that has sunk to the floor without an asymptote there: it may come to a zero of zeta, or rise again
- * and close. */
+ * as another line or as itself. */
 static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_sample *last,
                       const sa_line_sample *before)
 {
     int zero;
+    sa_line_store *store = lines->store;
     runner r = {last->alpha, last->q, -last->im_q * last->q / last->im_alpha, 0};
-    cv_status status = follow(&zero, &r, lines->store, last->q > before->q ? 1 : -1);
-    sa_line_end *end = &lines->store->end[number][at];
+    cv_status status = follow(&zero, &r, store, last->q > before->q ? 1 : -1);
+    sa_line_end *end = &store->end[number][at];
     if (status != CV_OK)
         return status;
     if (zero) {
         end->beyond = SA_BEYOND_ZERO;
         end->zero_alpha = r.alpha;
         end->zero_q = r.q;
-    } else if (r.eta_M <= 1 / lines->store->re_floor && comes_round(lines->store, number, at, &r)) {
-        lines->store->line[number].closed = 1;
-    } else {
-        return sa_lines_doubt(lines, last->alpha, last->q, "a line without an asymptote");
+        return CV_OK;
     }
+    const size_t other = r.eta_M <= 1 / store->re_floor ? comes_back(store, at, &r) : store->line_count;
+    if (other == store->line_count)
+        return sa_lines_doubt(lines, last->alpha, last->q, "a line without an asymptote");
+    *end = (sa_line_end){.kind = SA_END_MASS_HIGH, .beyond = SA_BEYOND_BRANCH, .number = other};
+    store->end[other][!at] =
+        (sa_line_end){.kind = SA_END_MASS_HIGH, .beyond = SA_BEYOND_BRANCH, .number = number};
     return CV_OK;
 }
 
@@ -290,5 +311,7 @@ cv_status sa_lines_ends(sa_lines *lines)
     qsort(d, count, sizeof *d, by_alpha);
     cv_status status = match(lines, d, count);
     free(d);
-    return status == CV_OK ? settle_all(lines) : status;
+    if (status == CV_OK)
+        status = settle_all(lines);
+    return status == CV_OK ? sa_lines_join(lines) : status;
 }

@@ -2,151 +2,203 @@
 
 #include "semianalytic/lines_parts.h"
 
-/* Three points of the line at x - h, x, x + h of the coordinate that is given; y is what is extreme. */
+/* Newton's iteration in (alpha, q) on
+ *
+ *     Im zeta = 0  and  e = 0,   e = d Im zeta / dq                      where alpha turns,
+ *                                e = Re_alpha Im_q - Re_q Im_alpha       where Re zeta is extreme,
+ *
+ * with derivatives by differences in MPFR: next to a branch curve the line may turn within less than doubles
+ * resolve, and gradients of zeta are parallel to many digits. That does not matter to an iteration in both
+ * coordinates, which is the same in any others that depend on them linearly. */
+enum { VALUE, BY_ALPHA, BY_Q, BY_ALPHA2, BY_ALPHA_Q, BY_Q2, DERIVATIVES };
+
 typedef struct {
     const sa_line_store *store;
-    sa_line_given which;
-    int of_alpha, digits;
-    double start, slope; /* the other coordinate at x, and how it changes with x */
-    mpfr_t x, h, shift, y[3], bend, scratch;
-} parabola;
+    int of_alpha;
+    mpfr_t x[2], h[2], step[2], at[2], error[2]; /* alpha, q; error: of the two parts of zeta */
+    mpfr_t re[DERIVATIVES], im[DERIVATIVES];
+    mpfr_t e[3]; /* value, derivatives by alpha and q */
+    mpfr_t det, scratch;
+    mpc_t zeta;
+} newton;
 
-static void parabola_init(parabola *p, mpfr_prec_t bits)
+static void newton_init(newton *n, mpfr_prec_t bits)
 {
-    mpfr_inits2(bits, p->x, p->h, p->shift, p->bend, p->scratch, p->y[0], p->y[1], p->y[2], (mpfr_ptr)0);
+    for (int i = 0; i < 2; ++i)
+        mpfr_inits2(bits, n->x[i], n->h[i], n->step[i], n->at[i], n->error[i], (mpfr_ptr)0);
+    for (int i = 0; i < DERIVATIVES; ++i)
+        mpfr_inits2(bits, n->re[i], n->im[i], (mpfr_ptr)0);
+    mpfr_inits2(bits, n->e[0], n->e[1], n->e[2], n->det, n->scratch, (mpfr_ptr)0);
+    mpc_init2(n->zeta, bits);
 }
 
-static void parabola_clear(parabola *p)
+static void newton_clear(newton *n)
 {
-    mpfr_clears(p->x, p->h, p->shift, p->bend, p->scratch, p->y[0], p->y[1], p->y[2], (mpfr_ptr)0);
+    for (int i = 0; i < 2; ++i)
+        mpfr_clears(n->x[i], n->h[i], n->step[i], n->at[i], n->error[i], (mpfr_ptr)0);
+    for (int i = 0; i < DERIVATIVES; ++i)
+        mpfr_clears(n->re[i], n->im[i], (mpfr_ptr)0);
+    mpfr_clears(n->e[0], n->e[1], n->e[2], n->det, n->scratch, (mpfr_ptr)0);
+    mpc_clear(n->zeta);
 }
 
-static cv_status point_at(sa_line_vertex *out, parabola *p, int side)
+/* zeta at x + (i h_alpha, k h_q), into its place among the derivatives for now */
+static cv_status evaluate(newton *n, int i, int k, int place)
+{
+    const sa_line_store *store = n->store;
+    const int by[2] = {i, k};
+    for (int c = 0; c < 2; ++c) {
+        mpfr_mul_si(n->at[c], n->h[c], by[c], MPFR_RNDN);
+        mpfr_add(n->at[c], n->at[c], n->x[c], MPFR_RNDN);
+    }
+    if (mpfr_sgn(n->at[0]) <= 0 || mpfr_sgn(n->at[1]) <= 0)
+        return CV_UNDECIDED;
+    cv_status status =
+        sa_zeta_mp(n->zeta, n->error[0], n->error[1], store->sweep, store->track, n->at[0], n->at[1]);
+    mpfr_set(n->re[place], mpc_realref(n->zeta), MPFR_RNDN);
+    mpfr_set(n->im[place], mpc_imagref(n->zeta), MPFR_RNDN);
+    return status;
+}
+
+/* From f at x, x + h (first), x - h (second): first and second derivative in their places */
+static void central(mpfr_t first, mpfr_t second, const mpfr_t f, const mpfr_t h, mpfr_t scratch)
+{
+    mpfr_sub(scratch, first, second, MPFR_RNDN);
+    mpfr_add(second, first, second, MPFR_RNDN);
+    mpfr_div(first, scratch, h, MPFR_RNDN);
+    mpfr_div_2ui(first, first, 1, MPFR_RNDN);
+    mpfr_mul_2ui(scratch, f, 1, MPFR_RNDN);
+    mpfr_sub(second, second, scratch, MPFR_RNDN);
+    mpfr_div(second, second, h, MPFR_RNDN);
+    mpfr_div(second, second, h, MPFR_RNDN);
+}
+
+/* (f(+, +) - f(+, 0) - f(0, +) + f) / (h k), before the others become derivatives */
+static void mixed(mpfr_t f[DERIVATIVES], const newton *n)
+{
+    mpfr_sub(f[BY_ALPHA_Q], f[BY_ALPHA_Q], f[BY_ALPHA], MPFR_RNDN);
+    mpfr_sub(f[BY_ALPHA_Q], f[BY_ALPHA_Q], f[BY_Q], MPFR_RNDN);
+    mpfr_add(f[BY_ALPHA_Q], f[BY_ALPHA_Q], f[VALUE], MPFR_RNDN);
+    mpfr_div(f[BY_ALPHA_Q], f[BY_ALPHA_Q], n->h[0], MPFR_RNDN);
+    mpfr_div(f[BY_ALPHA_Q], f[BY_ALPHA_Q], n->h[1], MPFR_RNDN);
+}
+
+/* Differences over a quarter of the bits leave as many right in second derivatives. */
+static cv_status differentiate(newton *n)
+{
+    static const int at[DERIVATIVES][2] = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {1, 1}, {0, -1}};
+    cv_status status = CV_OK;
+    for (int c = 0; c < 2; ++c)
+        mpfr_div_2ui(n->h[c], n->x[c], (unsigned long)mpfr_get_prec(n->x[c]) / 4, MPFR_RNDN);
+    for (int i = 0; i < DERIVATIVES && status == CV_OK; ++i)
+        status = evaluate(n, at[i][0], at[i][1], i);
+    for (int part = 0; part < 2 && status == CV_OK; ++part) {
+        mpfr_t *f = part == 0 ? n->re : n->im;
+        mixed(f, n);
+        central(f[BY_ALPHA], f[BY_ALPHA2], f[VALUE], n->h[0], n->scratch);
+        central(f[BY_Q], f[BY_Q2], f[VALUE], n->h[1], n->scratch);
+    }
+    return status;
+}
+
+/* out = a b - c d */
+static void cross(mpfr_t out, const mpfr_t a, const mpfr_t b, const mpfr_t c, const mpfr_t d)
+{
+    mpfr_fmms(out, a, b, c, d, MPFR_RNDN);
+}
+
+static void set_e(newton *n)
+{
+    static const int second[2][2] = {{BY_ALPHA2, BY_ALPHA_Q}, {BY_ALPHA_Q, BY_Q2}};
+    if (n->of_alpha) {
+        mpfr_set(n->e[0], n->im[BY_Q], MPFR_RNDN);
+        mpfr_set(n->e[1], n->im[BY_ALPHA_Q], MPFR_RNDN);
+        mpfr_set(n->e[2], n->im[BY_Q2], MPFR_RNDN);
+        return;
+    }
+    cross(n->e[0], n->re[BY_ALPHA], n->im[BY_Q], n->re[BY_Q], n->im[BY_ALPHA]);
+    for (int c = 0; c < 2; ++c) {
+        cross(n->scratch, n->re[second[c][0]], n->im[BY_Q], n->re[second[c][1]], n->im[BY_ALPHA]);
+        cross(n->e[1 + c], n->re[BY_ALPHA], n->im[second[c][1]], n->re[BY_Q], n->im[second[c][0]]);
+        mpfr_add(n->e[1 + c], n->e[1 + c], n->scratch, MPFR_RNDN);
+    }
+}
+
+/* x moves by a Newton step. *change: of what is extreme by that, to first order, relative. */
+static cv_status move(newton *n, double *change)
+{
+    cv_status status = differentiate(n);
+    if (status != CV_OK)
+        return status;
+    set_e(n);
+    cross(n->det, n->im[BY_ALPHA], n->e[2], n->im[BY_Q], n->e[1]);
+    cross(n->step[0], n->im[VALUE], n->e[2], n->im[BY_Q], n->e[0]);
+    cross(n->step[1], n->im[BY_ALPHA], n->e[0], n->im[VALUE], n->e[1]);
+    for (int c = 0; c < 2; ++c) {
+        mpfr_div(n->step[c], n->step[c], n->det, MPFR_RNDN);
+        mpfr_sub(n->x[c], n->x[c], n->step[c], MPFR_RNDN);
+        if (!mpfr_number_p(n->x[c]) || mpfr_sgn(n->x[c]) <= 0)
+            return CV_UNDECIDED;
+    }
+    if (n->of_alpha) {
+        mpfr_div(n->scratch, n->step[0], n->x[0], MPFR_RNDN);
+    } else {
+        mpfr_fmma(n->scratch, n->re[BY_ALPHA], n->step[0], n->re[BY_Q], n->step[1], MPFR_RNDN);
+        mpfr_div(n->scratch, n->scratch, n->re[VALUE], MPFR_RNDN);
+    }
+    *change = fabs(mpfr_get_d(n->scratch, MPFR_RNDA));
+    return isfinite(*change) ? CV_OK : CV_UNDECIDED;
+}
+
+/* Until a step changes what is extreme by less than the tolerance, which the next would square. */
+static cv_status iterate(newton *n, const sa_line_sample *from, double tolerance, double *change)
+{
+    enum { STEPS = 40 };
+    mpfr_set_d(n->x[0], from->alpha, MPFR_RNDN);
+    mpfr_set_d(n->x[1], from->q, MPFR_RNDN);
+    *change = INFINITY;
+    cv_status status = CV_OK;
+    for (int i = 0; i < STEPS && status == CV_OK && !(*change < tolerance); ++i)
+        status = move(n, change);
+    return status == CV_OK && !(*change < tolerance) ? CV_UNDECIDED : status;
+}
+
+/* Of alpha as a function of q: -Im_qq / Im_alpha */
+static int bend_of(const newton *n)
+{
+    return mpfr_sgn(n->im[BY_Q2]) * mpfr_sgn(n->im[BY_ALPHA]) > 0 ? -1 : 1;
+}
+
+/* x as a vertex: q, or the coordinate best given, is exact */
+static cv_status vertex_at(sa_line_vertex *out, newton *n, const sa_line_sample *sample, int digits)
 {
     int rises;
-    mpfr_mul_si(p->scratch, p->h, side, MPFR_RNDN);
-    mpfr_add(p->scratch, p->scratch, p->x, MPFR_RNDN);
-    double start = p->start + side * p->slope * mpfr_get_d(p->h, MPFR_RNDN);
-    cv_status status =
-        sa_line_point(out, &rises, p->store->sweep, p->store->track, p->which, p->scratch, start, p->digits);
-    return status == CV_OK && out->decided != CV_OK ? CV_UNDECIDED : status;
+    const sa_line_given which = n->of_alpha ? SA_GIVEN_Q : sa_line_best_given(sample);
+    const int given = which == SA_GIVEN_Q;
+    return sa_line_point_from(out, &rises, n->store->sweep, n->store->track, which, n->x[given], n->x[!given],
+                              digits);
 }
 
-/* shift to the extreme of the parabola. CV_UNDECIDED: there is none within reach. */
-static cv_status fit(parabola *p)
+cv_status sa_line_extreme(sa_line_vertex *out, int *bend, const sa_line_store *store,
+                          const sa_line_sample *sample, int digits)
 {
-    for (int side = -1; side <= 1; ++side) {
-        sa_line_vertex v;
-        cv_status status = point_at(&v, p, side);
-        if (status == CV_OK)
-            mpfr_set(p->y[side + 1], p->of_alpha ? v.alpha : v.eta_M, MPFR_RNDN);
-        if (side == 0 && status == CV_OK)
-            p->start = mpfr_get_d(p->which == SA_GIVEN_ALPHA ? v.q : v.alpha, MPFR_RNDN);
-        sa_line_vertex_clear(&v);
-        if (status != CV_OK)
-            return status;
+    const mpfr_prec_t guard = 320;
+    newton n = {.store = store, .of_alpha = (sample->marks & SA_MARK_TURN) != 0};
+    double change;
+    newton_init(&n, digits * 10L / 3 + guard);
+    const cv_status found = iterate(&n, sample, pow(10, -digits - 2), &change);
+    if (found != CV_OK) { /* the vertex is the sample, undecided */
+        mpfr_set_d(n.x[0], sample->alpha, MPFR_RNDN);
+        mpfr_set_d(n.x[1], sample->q, MPFR_RNDN);
     }
-    /* shift = h (y0 - y2) / (2 (y0 - 2 y1 + y2)) */
-    mpfr_add(p->bend, p->y[0], p->y[2], MPFR_RNDN);
-    mpfr_mul_2ui(p->scratch, p->y[1], 1, MPFR_RNDN);
-    mpfr_sub(p->bend, p->bend, p->scratch, MPFR_RNDN);
-    mpfr_sub(p->shift, p->y[0], p->y[2], MPFR_RNDN);
-    mpfr_mul(p->shift, p->shift, p->h, MPFR_RNDN);
-    mpfr_div(p->shift, p->shift, p->bend, MPFR_RNDN);
-    mpfr_div_2ui(p->shift, p->shift, 1, MPFR_RNDN);
-    return mpfr_number_p(p->shift) ? CV_OK : CV_UNDECIDED;
-}
-
-/* What moving by the last shift changed: bend / 2 (shift / h)^2 */
-static double last_change(parabola *p)
-{
-    mpfr_div(p->scratch, p->shift, p->h, MPFR_RNDN);
-    mpfr_sqr(p->scratch, p->scratch, MPFR_RNDN);
-    mpfr_mul(p->scratch, p->scratch, p->bend, MPFR_RNDN);
-    return fabs(mpfr_get_d(p->scratch, MPFR_RNDA)) / 2;
-}
-
-/* x moves by the shift, at most by twice h. 1: it was less than h. */
-static int move(parabola *p)
-{
-    int within = mpfr_cmpabs(p->shift, p->h) < 0;
-    mpfr_mul_2ui(p->scratch, p->h, 1, MPFR_RNDN);
-    if (mpfr_cmpabs(p->shift, p->scratch) > 0)
-        mpfr_copysign(p->shift, p->scratch, p->shift, MPFR_RNDN);
-    mpfr_add(p->x, p->x, p->shift, MPFR_RNDN);
-    p->start += p->slope * mpfr_get_d(p->shift, MPFR_RNDN);
-    return within;
-}
-
-/* Parabolas ever narrower: each leaves about the square of its width, relative to the scale of the line. */
-static cv_status approach(parabola *p, double scale, double tolerance, double *left)
-{
-    enum { STEPS = 60 };
-    const double widest = 1e-2;
-    double width = widest;
-    for (int i = 0, narrowed = 0; i < STEPS; ++i) {
-        mpfr_set_d(p->h, scale * width, MPFR_RNDN);
-        cv_status status = fit(p);
-        if (status == CV_FAILED)
-            return status;
-        if (status != CV_OK) {
-            scale /= 8; /* the line bends too much over this width */
-            continue;
-        }
-        if (!move(p)) {
-            width = fmin(8 * width, widest);
-            continue;
-        }
-        *left = last_change(p);
-        if (narrowed++ && *left < tolerance)
-            return CV_OK;
-        width = fmax(width * width, sqrt(tolerance) * 1e-2);
-    }
-    return CV_UNDECIDED;
-}
-
-/* At a turning point alpha is the extreme and q runs through. */
-static void choose(parabola *p, double *x, double *scale, const sa_line_sample *s)
-{
-    p->of_alpha = (s->marks & SA_MARK_TURN) != 0;
-    p->which = p->of_alpha ? SA_GIVEN_Q : sa_line_best_given(s);
-    int q_runs = p->which == SA_GIVEN_Q;
-    double before = q_runs ? s[-1].q : s[-1].alpha, after = q_runs ? s[1].q : s[1].alpha;
-    *x = q_runs ? s->q : s->alpha;
-    p->start = q_runs ? s->alpha : s->q;
-    p->slope = q_runs ? -s->im_q / s->im_alpha : -s->im_alpha / s->im_q;
-    *scale = fmin(fabs(after - *x), fabs(*x - before));
-    if (!(*scale > 1e-9 * fabs(after - before)))
-        *scale = fabs(after - before);
-}
-
-cv_status sa_line_extreme(sa_line_vertex *out, const sa_line_store *store, const sa_line_sample *sample,
-                          int digits)
-{
-    parabola p = {.store = store, .digits = 2 * digits + 10};
-    double x, scale, left = INFINITY;
-    choose(&p, &x, &scale, sample);
-    double size = p.of_alpha ? sample->alpha : 1 / sample->re;
-    parabola_init(&p, 4 * p.digits + 64);
-    mpfr_set_d(p.x, x, MPFR_RNDN);
-    cv_status status = approach(&p, scale, pow(10, -digits) * size, &left);
-    out->marks = sample->marks & (SA_MARK_LEAST_MASS | SA_MARK_MOST_MASS | SA_MARK_TURN);
-    out->value_error = left;
-    if (status == CV_OK) {
-        sa_line_vertex better;
-        mpfr_set_zero(p.h, 1);
-        status = point_at(&better, &p, 0);
-        if (status == CV_OK) {
-            better.marks = out->marks;
-            better.value_error = left + (p.of_alpha ? better.alpha_error : better.eta_M_error);
-            sa_line_vertex_clear(out);
-            *out = better;
-        } else {
-            sa_line_vertex_clear(&better);
-        }
-    }
-    if (status == CV_UNDECIDED)
+    cv_status status = vertex_at(out, &n, sample, digits);
+    if (status == CV_OK && found != CV_OK)
         out->decided = CV_UNDECIDED;
-    parabola_clear(&p);
-    return status == CV_FAILED ? status : CV_OK;
+    const double size = mpfr_get_d(n.of_alpha ? out->alpha : out->eta_M, MPFR_RNDA);
+    out->marks = sample->marks & (SA_MARK_LEAST_MASS | SA_MARK_MOST_MASS | SA_MARK_TURN);
+    out->value_error = change * size + (n.of_alpha ? out->alpha_error : out->eta_M_error);
+    if (bend != NULL)
+        *bend = bend_of(&n);
+    newton_clear(&n);
+    return found == CV_FAILED ? found : status;
 }

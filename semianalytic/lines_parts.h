@@ -15,6 +15,8 @@ typedef struct {
 typedef struct {
     double alpha, q, re, re_alpha, re_q, im_alpha, im_q;
     int marks;
+    enum { SA_TURN_UNTRIED, SA_TURN_SETTLED, SA_TURN_UNSETTLED } turn; /* settled: exact, as far as known */
+    double alpha_rest, alpha_error; /* of a settled turning point: alpha + alpha_rest, within alpha_error */
 } sa_line_sample;
 
 typedef struct {
@@ -46,6 +48,7 @@ typedef struct {
     const sa_map *map;
     sa_line_plot plot;
     double re_floor; /* Re zeta down to which lines are wanted */
+    sa_field *sharp; /* places samples in the plot better than the search needs; not counted as its effort */
     sa_line_samples samples;
     size_t piece_count, piece_room;
     sa_line_piece *piece;
@@ -79,7 +82,7 @@ struct sa_line_store {
     cv_params params;
     sa_track *track;
     sa_map map;
-    sa_field *field;
+    sa_field *field, *sharp; /* the second to place samples, see sa_line_trace */
     sa_sweep *sweep;
     sa_line_plot plot;
     double re_floor;
@@ -91,8 +94,12 @@ struct sa_line_store {
     int torn;              /* the search has left something out: finer cells may help */
 };
 
-/* Finds out how the lines end; what is undecided is reported by sa_lines_doubt. */
+/* Finds out how the lines end, and joins those that are one line below the floor of Re zeta; what is
+ * undecided is reported by sa_lines_doubt. */
 cv_status sa_lines_ends(sa_lines *lines);
+
+/* Makes one line of those whose ends go on as each other (SA_BEYOND_BRANCH with the number of the line). */
+cv_status sa_lines_join(sa_lines *lines);
 
 /* Something is undecided at this place, which is listed; the first one becomes the reason. */
 cv_status sa_lines_doubt(sa_lines *lines, double alpha, double q, const char *what);
@@ -109,12 +116,19 @@ void sa_line_simplify(char *kept, const sa_line_sample *sample, size_t count, co
 cv_status sa_line_refine(sa_line_vertex *out, const sa_line_store *store, const sa_line_sample *sample,
                          sa_end_kind end, int digits);
 
-/* Moves a vertex near a local extreme, of eta_M or (SA_MARK_TURN) of alpha, onto it. */
-cv_status sa_line_extreme(sa_line_vertex *out, const sa_line_store *store, const sa_line_sample *sample,
-                          int digits);
+/* The local extreme next to a sample marked so: of eta_M, or (SA_MARK_TURN) of alpha. *bend, NULL allowed: 1
+ * where the extreme of alpha is a minimum, -1 a maximum. out is initialised here; out->decided is
+ * CV_UNDECIDED where there is none. */
+cv_status sa_line_extreme(sa_line_vertex *out, int *bend, const sa_line_store *store,
+                          const sa_line_sample *sample, int digits);
 
 /* Which coordinate is best given at a sample. */
 sa_line_given sa_line_best_given(const sa_line_sample *sample);
+
+/* Makes a turning point of alpha next to sample k of the line exact, which is then settled; samples beyond it
+ * are removed. CV_UNDECIDED: there is none, or it is not found to more digits than a double has; the sample
+ * is then unsettled. */
+cv_status sa_line_settle_turn(const sa_line_store *store, sa_line *line, size_t k);
 
 /* Numbers of roots on both sides of a branch. */
 cv_status sa_branch_count(sa_branch *branch, const sa_line_store *store);

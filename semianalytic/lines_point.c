@@ -10,6 +10,7 @@ typedef struct {
     mpfr_srcptr given;
     mpfr_t x, f, step, slope, reach, last_x, last_f, scratch, re_error, im_error;
     mpc_t zeta;
+    int astray; /* no zero was found where Im zeta is known well: more precision does not help */
 } solver;
 
 static void solver_init(solver *s, mpfr_prec_t bits)
@@ -109,6 +110,27 @@ static cv_status iterate(solver *s)
     return CV_UNDECIDED;
 }
 
+/* From start, with the slope set; where that leads astray, once more with that of a difference. */
+static cv_status search(solver *s, const mpfr_t start)
+{
+    const unsigned long clear = 20;
+    cv_status status = CV_UNDECIDED;
+    for (int i = 0; i < 2 && status == CV_UNDECIDED; ++i) {
+        mpfr_set(s->x, start, MPFR_RNDN);
+        if (mpfr_zero_p(s->slope) || i > 0)
+            status = difference(s);
+        else
+            status = CV_OK;
+        if (status == CV_OK)
+            status = iterate(s);
+        mpfr_mul_2ui(s->scratch, s->im_error, clear, MPFR_RNDU);
+        s->astray = status == CV_UNDECIDED && mpfr_cmpabs(s->f, s->scratch) > 0;
+        if (!s->astray)
+            break;
+    }
+    return status;
+}
+
 /* Sign of Im zeta at x + side * reach, 0 when not certain; Re zeta there in re. */
 static cv_status side_sign(int *sign, mpfr_t re, solver *s, int side)
 {
@@ -157,22 +179,24 @@ static cv_status enclose(sa_line_vertex *out, int *rises, solver *s)
     return status;
 }
 
-static cv_status attempt(sa_line_vertex *out, int *rises, solver *s, double start, int digits)
+/* A start beyond double is next to a point that double does not resolve: nor does it the slope there. */
+static int is_double(const mpfr_t x)
 {
-    double re_x, im_x, re;
+    return mpfr_min_prec(x) <= 53;
+}
+
+static cv_status attempt(sa_line_vertex *out, int *rises, solver *s, const mpfr_t exact_start, int digits)
+{
+    double re_x, im_x, re, start = mpfr_get_d(exact_start, MPFR_RNDN);
     cv_status status = slopes(&re_x, &im_x, &re, s, start);
     if (status != CV_OK)
         return status;
     /* eta_M must have the digits too */
     double scale = fmin(start, fabs(re / re_x)) / 8;
-    mpfr_set_d(s->x, start, MPFR_RNDN);
-    mpfr_set_d(s->slope, im_x, MPFR_RNDN);
+    mpfr_set_d(s->slope, is_double(exact_start) ? im_x : 0, MPFR_RNDN);
     mpfr_ui_pow_ui(s->reach, 10, (unsigned long)digits, MPFR_RNDU);
     mpfr_d_div(s->reach, scale > 0 ? scale : start / 8, s->reach, MPFR_RNDD);
-    if (im_x == 0)
-        status = difference(s);
-    if (status == CV_OK)
-        status = iterate(s);
+    status = search(s, exact_start);
     if (status == CV_OK)
         status = enclose(out, rises, s);
     mpfr_set(s->which == SA_GIVEN_ALPHA ? out->q : out->alpha, s->x, MPFR_RNDN);
@@ -181,27 +205,28 @@ static cv_status attempt(sa_line_vertex *out, int *rises, solver *s, double star
 }
 
 /* The start, of which no digit is claimed. */
-static void give_up(sa_line_vertex *out, const solver *s, double start)
+static void give_up(sa_line_vertex *out, const solver *s, const mpfr_t start)
 {
-    mpfr_set_d(s->which == SA_GIVEN_ALPHA ? out->q : out->alpha, start, MPFR_RNDN);
-    *(s->which == SA_GIVEN_ALPHA ? &out->q_error : &out->alpha_error) = start;
+    mpfr_set(s->which == SA_GIVEN_ALPHA ? out->q : out->alpha, start, MPFR_RNDN);
+    *(s->which == SA_GIVEN_ALPHA ? &out->q_error : &out->alpha_error) = mpfr_get_d(start, MPFR_RNDU);
     mpfr_set_ui(out->eta_M, 0, MPFR_RNDN);
     out->eta_M_error = INFINITY;
     out->decided = CV_UNDECIDED;
 }
 
-cv_status sa_line_point(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
-                        sa_line_given which, const mpfr_t given, double start, int digits)
+cv_status sa_line_point_from(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
+                             sa_line_given which, const mpfr_t given, const mpfr_t start, int digits)
 {
     const mpfr_prec_t guard = 56, most = SA_PRECISION_MAX + 4 * (mpfr_prec_t)digits;
     cv_status status = CV_UNDECIDED;
     *rises = 0;
     *out = (sa_line_vertex){.decided = CV_OK};
     mpfr_inits2(mpfr_get_prec(given), out->alpha, out->q, out->eta_M, (mpfr_ptr)0);
-    if (!(mpfr_sgn(given) > 0) || !mpfr_number_p(given) || !(start > 0) || !isfinite(start))
+    if (!(mpfr_sgn(given) > 0) || !mpfr_number_p(given) || !(mpfr_sgn(start) > 0) || !mpfr_number_p(start))
         return CV_BAD_INPUT;
     mpfr_set(which == SA_GIVEN_ALPHA ? out->alpha : out->q, given, MPFR_RNDN);
-    for (mpfr_prec_t bits = digits * 10L / 3 + guard; status == CV_UNDECIDED && bits < most;
+    int astray = 0;
+    for (mpfr_prec_t bits = digits * 10L / 3 + guard; status == CV_UNDECIDED && !astray && bits < most;
          bits += bits / 2) {
         solver s = {.track = track, .sweep = sweep, .which = which, .given = given};
         solver_init(&s, bits);
@@ -210,11 +235,23 @@ cv_status sa_line_point(sa_line_vertex *out, int *rises, sa_sweep *sweep, const 
         status = attempt(out, rises, &s, start, digits);
         if (status != CV_OK)
             give_up(out, &s, start);
+        astray = s.astray;
         solver_clear(&s);
     }
     if (status == CV_OK)
         out->decided = CV_OK;
     return status == CV_UNDECIDED ? CV_OK : status;
+}
+
+cv_status sa_line_point(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
+                        sa_line_given which, const mpfr_t given, double start, int digits)
+{
+    mpfr_t exact;
+    mpfr_init2(exact, 53);
+    mpfr_set_d(exact, start, MPFR_RNDN);
+    cv_status status = sa_line_point_from(out, rises, sweep, track, which, given, exact, digits);
+    mpfr_clear(exact);
+    return status;
 }
 
 void sa_line_vertex_clear(sa_line_vertex *vertex)

@@ -9,14 +9,20 @@ sa_line_given sa_line_best_given(const sa_line_sample *sample)
                                                                                     : SA_GIVEN_Q;
 }
 
-/* The point found is the one that the sample stands for: near, on the same line. */
-static int same_point(const sa_line_vertex *v, const sa_line_sample *s, sa_line_given which, int rises)
+/* The point found is the one that the sample stands for: near ... */
+static int is_near(const sa_line_vertex *v, const sa_line_sample *s)
 {
     const double near = 1e-4, near_mass = 0.02;
     double alpha = mpfr_get_d(v->alpha, MPFR_RNDN), q = mpfr_get_d(v->q, MPFR_RNDN);
-    double slope = which == SA_GIVEN_ALPHA ? s->im_q : s->im_alpha;
     return fabs(alpha - s->alpha) < near * s->alpha && fabs(q - s->q) < near * s->q &&
-           fabs(mpfr_get_d(v->eta_M, MPFR_RNDN) * s->re - 1) < near_mass && (rises > 0) == (slope > 0);
+           fabs(mpfr_get_d(v->eta_M, MPFR_RNDN) * s->re - 1) < near_mass;
+}
+
+/* ... and on the same line. */
+static int same_point(const sa_line_vertex *v, const sa_line_sample *s, sa_line_given which, int rises)
+{
+    double slope = which == SA_GIVEN_ALPHA ? s->im_q : s->im_alpha;
+    return is_near(v, s) && (rises > 0) == (slope > 0);
 }
 
 /* At an end of the range of alpha, which need not be a double. */
@@ -87,8 +93,10 @@ cv_status sa_line_refine(sa_line_vertex *out, const sa_line_store *store, const 
     default:
         break;
     }
-    cv_status status = on_line(out, store, sample, digits);
-    if (status == CV_OK && sample->marks != 0 && out->decided == CV_OK)
-        status = sa_line_extreme(out, store, sample, digits);
+    if (sample->marks == 0)
+        return on_line(out, store, sample, digits);
+    cv_status status = sa_line_extreme(out, NULL, store, sample, digits);
+    if (status == CV_OK && !is_near(out, sample))
+        out->decided = CV_UNDECIDED;
     return status;
 }

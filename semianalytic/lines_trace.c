@@ -43,7 +43,14 @@ cv_status sa_line_place_add(double (**place)[2], size_t *count, double alpha, do
 
 static cv_status append(const walk *w, const sa_sample *s, int marks)
 {
-    const sa_line_sample item = {s->alpha, s->q, s->re, s->re_alpha, s->re_q, s->im_alpha, s->im_q, marks};
+    const sa_line_sample item = {.alpha = s->alpha,
+                                 .q = s->q,
+                                 .re = s->re,
+                                 .re_alpha = s->re_alpha,
+                                 .re_q = s->re_q,
+                                 .im_alpha = s->im_alpha,
+                                 .im_q = s->im_q,
+                                 .marks = marks};
     return sa_line_samples_add(&w->trace->samples, &item);
 }
 
@@ -83,7 +90,7 @@ static cv_status locate(station *out, const walk *w, const station *a, const sta
     double x0 = a->x, x1 = b->x, f0 = event_value(w, &a->at, e), f1 = event_value(w, &b->at, e);
     for (int i = 0, side = 0; i < 60 && fabs(x1 - x0) > 1e-13; ++i) {
         out->x = x0 + (x1 - x0) * f0 / (f0 - f1);
-        cv_status status = sa_segment_point(&out->at, w->field, w->segment, out->x);
+        cv_status status = sa_segment_point(&out->at, w->trace->sharp, w->segment, out->x);
         if (status != CV_OK)
             return status;
         double f = event_value(w, &out->at, e);
@@ -181,6 +188,8 @@ static cv_status divide(const walk *w, const station *a, const station *b, int d
     enum { DEEPEST = 24 };
     station m = {.x = (a->x + b->x) / 2};
     cv_status status = sa_segment_point(&m.at, w->field, w->segment, m.x);
+    if (status == CV_OK && in_plot(w, &m.at))
+        status = sa_segment_point(&m.at, w->trace->sharp, w->segment, m.x);
     if (status != CV_OK)
         return status;
     int leaf = depth >= DEEPEST || accepted(w, a, &m, b);
@@ -307,15 +316,19 @@ static cv_status on_segment(void *context, sa_field *field, const sa_segment *se
     sa_line_trace *trace = context;
     walk w = {trace, field, segment};
     sa_line_piece piece = {.first = trace->samples.count};
-    station from = {0, segment->from}, to = {1, segment->to};
+    station end[2] = {{0, segment->from}, {1, segment->to}};
     int forward = in_direction(segment);
+    sa_field_block(trace->sharp, segment->column, segment->side_u, segment->strip, segment->side_t);
     cv_status status = make_edge(&piece.edge[!forward], trace->map, field, segment, 0);
     if (status == CV_OK)
         status = make_edge(&piece.edge[forward], trace->map, field, segment, 1);
+    for (int i = 0; i < 2 && status == CV_OK; ++i)
+        if (in_plot(&w, &end[i].at))
+            status = sa_segment_point(&end[i].at, trace->sharp, segment, end[i].x);
     if (status == CV_OK)
-        status = append(&w, &segment->from, 0);
+        status = append(&w, &end[0].at, 0);
     if (status == CV_OK)
-        status = divide(&w, &from, &to, 0);
+        status = divide(&w, &end[0], &end[1], 0);
     if (status != CV_OK)
         return status;
     piece.count = trace->samples.count - piece.first;
