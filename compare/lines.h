@@ -34,8 +34,9 @@ typedef struct {
     double asymptote, asymptote_error; /* velocity at which eta_M grows to infinity from here on, and its
                                           bound; NaN: none, no bound */
     double asymptote_q;                /* and the frequency there: mostly 0, else zeta is 0 there */
-    int zero_mass;                     /* 1: found to go on to zero mass as alpha grows to infinity; 0 claims
-                                          nothing, so that it is reported, not judged */
+    int open;      /* 1: what is beyond the greatest mass is not known; nothing is claimed */
+    int zero_mass; /* 1: found to go on to zero mass as alpha grows to infinity; 0 claims
+                      nothing, so that it is reported, not judged */
 } cmp_line_end;
 
 /* The part of a line inside the range; two more roots are unstable on its left. The polyline of the vertices
@@ -71,8 +72,9 @@ typedef struct {
     /* out initialised by the caller */
     cv_status (*find)(void *handle, cmp_branches *out, int digits, cv_message *why);
     /* the point of a line at exactly this alpha (by_q 0) or q (by_q 1), the other coordinate within "reach"
-     * of start; out initialised by the caller; what is not found or not to the digits is undecided */
-    cv_status (*point)(void *handle, cmp_line_point *out, int by_q, mpfr_srcptr given, double start,
+     * of start, or of its double; out initialised by the caller; what is not found or not to the digits is
+     * undecided */
+    cv_status (*point)(void *handle, cmp_line_point *out, int by_q, mpfr_srcptr given, mpfr_srcptr start,
                        double reach, int digits, cv_message *why);
     /* unstable roots at each of the mass ratios; decided[i] CV_UNDECIDED where it cannot tell; after find */
     cv_status (*count)(void *handle, int *roots, cv_status *decided, double alpha, size_t mass_count,
@@ -105,12 +107,12 @@ void cmp_branch_pairs_clear(cmp_branch_pairs *p);
 
 /* Judges one pair; the verdicts are initialised by cmp_branches_pair.
  * A branch of one method alone: CMP_DISAGREE, or CMP_UNDECIDED where a list says that it may be incomplete. A
- * pair: the same ends, asymptotes (CMP_UNDECIDED where only one
- * method knows of one) and least mass within the bounds, as many turning points, nowhere further
- * apart than 5e-3 of the range. Each vertex of either: its exact coordinate (q at a turning point) is given
- * to both methods' "point", or to the other's alone where the vertex has the digits already; the two points
- * must agree within the sum of their bounds and to 10^-digits, and the vertex with the point of its own
- * method within its bounds. */
+ * pair: the same ends, asymptotes (CMP_UNDECIDED where the
+ * other method knows that there is none) and least mass within the bounds, as many turning points, nowhere
+ * further apart than 5e-3 of the range. Each vertex of either: its exact coordinate (q at a turning point) is
+ * given to both methods' "point", or to the other's alone where the vertex has the digits already; the two
+ * points must agree within the sum of their bounds and to 10^-digits, and the vertex with the point of its
+ * own method within its bounds. */
 cv_status cmp_branches_judge(cmp_branch_pair *pair, const cmp_branches lists[CMP_METHODS],
                              const cmp_line_method *const methods[CMP_METHODS],
                              void *const handles[CMP_METHODS], int digits, cv_message *why);

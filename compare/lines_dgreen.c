@@ -64,7 +64,8 @@ static cmp_line_end end_of(const dg_lines *lines, const dg_line *line, int e)
         [DG_LINE_TOP] = CMP_END_MASS_HIGH,       [DG_LINE_BOTTOM] = CMP_END_MASS_LOW,
         [DG_LINE_ALPHA_MIN] = CMP_END_ALPHA_LOW, [DG_LINE_ALPHA_MAX] = CMP_END_ALPHA_HIGH,
         [DG_LINE_UNDECIDED] = CMP_END_UNDECIDED};
-    cmp_line_end end = {kinds[line->exits[e]], (double)NAN, (double)NAN, 0, 0};
+    cmp_line_end end = {kinds[line->exits[e]], (double)NAN, (double)NAN, 0, 0, 0};
+    end.open = line->exits[e] == DG_LINE_TOP;
     end.zero_mass = line->zero_mass[e];
     if (line->exits[e] != DG_LINE_INFINITE_MASS)
         return end;
@@ -130,7 +131,7 @@ static void copy_coordinate(mpfr_ptr to, double *error, mpfr_srcptr from, double
     *error = from_error;
 }
 
-static cv_status point(void *opaque, cmp_line_point *out, int by_q, mpfr_srcptr given, double start,
+static cv_status point(void *opaque, cmp_line_point *out, int by_q, mpfr_srcptr given, mpfr_srcptr start,
                        double reach, int digits, cv_message *why)
 {
     const handle *h = opaque;

@@ -9,6 +9,9 @@ static const double UNBOUNDED = 1e-6;
 /* Where the other method looks for the point of a vertex, relative: first, and if nothing is there. */
 static const double REACH[] = {1e-12, 1e-7, 1e-4};
 enum { REACHES = sizeof REACH / sizeof *REACH };
+/* Next to a turning point another arm of the line is near: there it looks within so many times the bound
+ * first, but not nearer than this, relative. */
+static const double BOUNDS = 1e3, NEAREST = 1e-24;
 
 typedef struct {
     cmp_branch_pair *pair;
@@ -50,6 +53,8 @@ static void judge_ends(const judge *j, const cmp_branch *a, const cmp_branch *b)
             cmp_verdict_worsen(v, CMP_DISAGREE, "the branch %s at %s by %s, at %s by %s",
                                e == 0 ? "begins" : "ends", end_name(x), j->methods[0]->name, end_name(y),
                                j->methods[1]->name);
+        else if ((isnan(x->asymptote) && x->open) || (isnan(y->asymptote) && y->open))
+            continue; /* outside the range, and the one claims nothing */
         else if (isnan(x->asymptote) != isnan(y->asymptote))
             cmp_verdict_worsen(v, CMP_UNDECIDED, "only %s knows of the asymptote at alpha = %.15g",
                                j->methods[isnan(x->asymptote)]->name,
@@ -165,13 +170,13 @@ static void judge_vertex(const judge *j, int m, int by_q, const cmp_line_point *
 static cv_status point_near(cmp_line_point *out, int *found, const judge *j, int m, int by_q,
                             const cmp_line_point *claim)
 {
-    mpfr_srcptr given = by_q ? claim->q : claim->alpha;
-    const double start = mpfr_get_d(by_q ? claim->alpha : claim->q, MPFR_RNDN);
+    mpfr_srcptr given = by_q ? claim->q : claim->alpha, start = by_q ? claim->alpha : claim->q;
+    const double size = mpfr_get_d(start, MPFR_RNDN), bound = by_q ? claim->alpha_error : claim->q_error;
     cv_status status = CV_UNDECIDED;
     *found = 0;
-    for (int r = 0; r < REACHES && !*found; r++) {
-        status =
-            j->methods[m]->point(j->handles[m], out, by_q, given, start, REACH[r] * start, j->digits, j->why);
+    for (int r = claim->turns && !isnan(bound) ? -1 : 0; r < REACHES && !*found; r++) {
+        const double reach = r < 0 ? fmax(BOUNDS * bound, NEAREST * size) : REACH[r] * size;
+        status = j->methods[m]->point(j->handles[m], out, by_q, given, start, reach, j->digits, j->why);
         if (status != CV_OK && status != CV_UNDECIDED)
             return status;
         *found = status == CV_OK && out->decided == CV_OK && usable(out);
@@ -197,6 +202,13 @@ static void not_found(const judge *j, int m, const cmp_line_point *at)
                        mpfr_get_d(at->alpha, MPFR_RNDN), mpfr_get_d(at->q, MPFR_RNDN), j->digits);
 }
 
+/* A turning point without a bound may be so far beside the true one that its q has no point next to it; that
+ * the other method has one there, too, is judged by their number and by the distance of the polylines. */
+static int may_be_off(const cmp_line_point *vertex)
+{
+    return vertex->turns && isnan(vertex->alpha_error);
+}
+
 /* Vertex of method m's branch. */
 static cv_status compare_vertex(const judge *j, int m, const cmp_line_point *vertex)
 {
@@ -217,10 +229,10 @@ static cv_status compare_vertex(const judge *j, int m, const cmp_line_point *ver
         status = point_near(&other, &found_other, j, 1 - m, by_q, mine);
     if (status == CV_OK && found && !ready)
         judge_vertex(j, m, by_q, vertex, &own);
-    if (status == CV_OK && !(found && found_other))
-        not_found(j, found ? 1 - m : m, vertex);
-    else if (status == CV_OK)
+    if (status == CV_OK && found && found_other)
         judge_points(j, by_q, mine, &other);
+    else if (status == CV_OK && !may_be_off(vertex))
+        not_found(j, found ? 1 - m : m, vertex);
     cmp_line_point_clear(&own);
     cmp_line_point_clear(&other);
     return status;

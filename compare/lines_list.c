@@ -50,7 +50,7 @@ cmp_branch *cmp_branches_append(cmp_branches *b)
     cmp_branch *items = room(b->branches, b->count, sizeof *items);
     if (items == NULL)
         return NULL;
-    const cmp_line_end open = {CMP_END_UNDECIDED, (double)NAN, (double)NAN, 0, 0};
+    const cmp_line_end open = {CMP_END_UNDECIDED, (double)NAN, (double)NAN, 0, 0, 0};
     b->branches = items;
     items[b->count] = (cmp_branch){.ends = {open, open}, .least_mass = NAN, .least_mass_error = NAN};
     return &items[b->count++];

@@ -82,7 +82,8 @@ static cmp_line_end end_of(const sa_lines *lines, const sa_branch *branch, const
         [SA_END_ALPHA_HIGH] = CMP_END_ALPHA_HIGH, [SA_END_MASS_LOW] = CMP_END_MASS_LOW,
         [SA_END_MASS_HIGH] = CMP_END_MASS_HIGH,   [SA_END_UNDECIDED] = CMP_END_UNDECIDED,
         [SA_END_CURVE] = CMP_END_UNDECIDED,       [SA_END_SPECIAL] = CMP_END_UNDECIDED};
-    cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN, 0, 0};
+    cmp_line_end out = {kinds[end->kind], (double)NAN, (double)NAN, 0, 0, 0};
+    out.open = end->beyond == SA_BEYOND_NOTHING;
     out.zero_mass = branch->kind == SA_LINE_ZERO_MASS &&
                     (end->kind == SA_END_ALPHA_HIGH || end->beyond == SA_BEYOND_ALPHA_HIGH);
     if (end->beyond == SA_BEYOND_ASYMPTOTE) {
@@ -140,20 +141,21 @@ static cv_status find(void *opaque, cmp_branches *out, int digits, cv_message *w
     return status;
 }
 
-static cv_status point(void *opaque, cmp_line_point *out, int by_q, mpfr_srcptr given, double start,
+static cv_status point(void *opaque, cmp_line_point *out, int by_q, mpfr_srcptr given, mpfr_srcptr start,
                        double reach, int digits, cv_message *why)
 {
     const handle *h = opaque;
     sa_line_vertex v;
     int rises;
-    cv_status status = sa_line_point(&v, &rises, h->sweep, h->track, by_q ? SA_GIVEN_Q : SA_GIVEN_ALPHA,
-                                     given, start, digits);
+    cv_status status = sa_line_point_from(&v, &rises, h->sweep, h->track, by_q ? SA_GIVEN_Q : SA_GIVEN_ALPHA,
+                                          given, start, digits);
     if (status != CV_OK)
-        return cv_fail(why, status, "no point of a line next to %.15g", start);
+        return cv_fail(why, status, "no point of a line next to %.15g", mpfr_get_d(start, MPFR_RNDN));
     copy_vertex(out, &v);
     out->turns = 0;
-    const double off = mpfr_get_d(by_q ? v.alpha : v.q, MPFR_RNDN) - start;
-    if (!(fabs(off) <= reach + 4e-16 * start) || rises == 0)
+    const double from = mpfr_get_d(start, MPFR_RNDN);
+    const double off = mpfr_get_d(by_q ? v.alpha : v.q, MPFR_RNDN) - from;
+    if (!(fabs(off) <= reach + 4e-16 * from) || rises == 0)
         out->decided = CV_UNDECIDED;
     sa_line_vertex_clear(&v);
     return CV_OK;

@@ -113,9 +113,9 @@ void dg_line_point_clear(dg_line_point *p);
  * the signs: Re zeta is monotone in the final bracket. reach > 0 must be less than the distance to the next
  * line. CV_UNDECIDED: no change of sign within reach, Re zeta not positive there, or the largest precision
  * was not enough; *out then has no meaning. CV_BAD_INPUT: alpha, q or reach not positive. */
-cv_status dg_line_at_alpha(dg_line_point *out, const dg_track *track, mpfr_srcptr alpha, double q,
+cv_status dg_line_at_alpha(dg_line_point *out, const dg_track *track, mpfr_srcptr alpha, mpfr_srcptr q,
                            double reach, int digits, cv_message *why);
-cv_status dg_line_at_frequency(dg_line_point *out, const dg_track *track, mpfr_srcptr q, double alpha,
+cv_status dg_line_at_frequency(dg_line_point *out, const dg_track *track, mpfr_srcptr q, mpfr_srcptr alpha,
                                double reach, int digits, cv_message *why);
 
 #endif

@@ -102,12 +102,11 @@ static int good_enough(const dg_line_point *out, mpfr_srcptr tolerance)
 }
 
 /* Brackets the free coordinate around centre until both it and eta_M are good enough. */
-static cv_status seek(dg_line_point *out, seeker *s, double centre, double reach, int digits)
+static cv_status seek(dg_line_point *out, seeker *s, mpfr_srcptr start, double reach, int digits)
 {
-    mpfr_t start, tolerance;
-    mpfr_init2(start, 53);
+    const double centre = mpfr_get_d(start, RND);
+    mpfr_t tolerance;
     mpfr_init2(tolerance, 53);
-    mpfr_set_d(start, centre, RND);
     mpfr_set_si(tolerance, 10, RND);
     mpfr_pow_si(tolerance, tolerance, -digits, MPFR_RNDD);
     mpfr_mul_d(s->bracket.tolerance, tolerance, centre - fmin(reach, centre / 2), MPFR_RNDD);
@@ -119,19 +118,21 @@ static cv_status seek(dg_line_point *out, seeker *s, double centre, double reach
         for (int k = 0; k < MORE_DIGITS; k++)
             mpfr_div_ui(s->bracket.tolerance, s->bracket.tolerance, 10, RND);
     }
-    mpfr_clears(start, tolerance, (mpfr_ptr)NULL);
+    mpfr_clear(tolerance);
     return status == CV_OK && !done ? CV_UNDECIDED : status;
 }
 
 static cv_status find_point(dg_line_point *out, const dg_track *track, mpfr_srcptr fixed, int seek_alpha,
-                            double centre, double reach, int digits, cv_message *why)
+                            mpfr_srcptr centre, double reach, int digits, cv_message *why)
 {
-    if (!(mpfr_sgn(fixed) > 0 && centre > 0 && reach > 0))
+    if (!(mpfr_sgn(fixed) > 0 && mpfr_sgn(centre) > 0 && reach > 0))
         return cv_fail(why, CV_BAD_INPUT, "a point of a line needs alpha, q and reach above zero");
     seeker s = {.track = track, .fixed = fixed, .seek_alpha = seek_alpha};
     s.bits = 64 * ((mpfr_prec_t)((digits + 2 * GUARD_DIGITS) * 3.33) / 64 + 1) - 1;
     if (s.bits < mpfr_get_prec(fixed))
         s.bits = mpfr_get_prec(fixed); /* so that it is used exactly */
+    if (s.bits < mpfr_get_prec(centre))
+        s.bits = mpfr_get_prec(centre);
     s.limit = s.bits + MAX_EXTRA_BITS;
     mpc_init2(s.zeta, s.bits);
     mpfr_inits2(s.bits, s.re_error, s.im_error, (mpfr_ptr)NULL);
@@ -154,16 +155,16 @@ static cv_status find_point(dg_line_point *out, const dg_track *track, mpfr_srcp
         return CV_OK;
     return cv_fail(why, status, "no point of a line found at %s = %.17g, %s within %.3g of %.17g",
                    seek_alpha ? "q" : "alpha", mpfr_get_d(fixed, RND), seek_alpha ? "alpha" : "q", reach,
-                   centre);
+                   mpfr_get_d(centre, RND));
 }
 
-cv_status dg_line_at_alpha(dg_line_point *out, const dg_track *track, mpfr_srcptr alpha, double q,
+cv_status dg_line_at_alpha(dg_line_point *out, const dg_track *track, mpfr_srcptr alpha, mpfr_srcptr q,
                            double reach, int digits, cv_message *why)
 {
     return find_point(out, track, alpha, 0, q, reach, digits, why);
 }
 
-cv_status dg_line_at_frequency(dg_line_point *out, const dg_track *track, mpfr_srcptr q, double alpha,
+cv_status dg_line_at_frequency(dg_line_point *out, const dg_track *track, mpfr_srcptr q, mpfr_srcptr alpha,
                                double reach, int digits, cv_message *why)
 {
     return find_point(out, track, q, 1, alpha, reach, digits, why);

@@ -31,6 +31,7 @@ typedef struct {
     int zero_mass;       /* 1 + line of which the first end is said to run to zero mass */
     double asymptote;    /* added to the asymptotes */
     double asymptote_q;  /* their frequency */
+    int open;            /* nothing is claimed beyond the greatest mass */
     double least;        /* relative, of the least masses */
     int bend;            /* 1 + line with one turning point more */
     int nan;             /* 1 + line with a vertex that is not a number */
@@ -159,15 +160,19 @@ static void fake_branch(cmp_branches *out, const line_faults *f, int line)
     if (b == NULL)
         abort();
     fake_vertices(b, f, line);
-    const cmp_line_end closed = {CMP_END_CLOSED, (double)NAN, (double)NAN, 0, 0},
-                       bottom = {CMP_END_MASS_LOW, (double)NAN, (double)NAN, 0, 0},
-                       top = {CMP_END_MASS_HIGH, (line == 0 ? 0.5 : 0.75) + f->asymptote, 1e-16,
-                              f->asymptote_q, 0};
+    const cmp_line_end closed = {CMP_END_CLOSED, (double)NAN, (double)NAN, 0, 0, 0},
+                       bottom = {CMP_END_MASS_LOW, (double)NAN, (double)NAN, 0, 0, 0},
+                       top = {CMP_END_MASS_HIGH,
+                              (line == 0 ? 0.5 : 0.75) + f->asymptote,
+                              1e-16,
+                              f->asymptote_q,
+                              f->open,
+                              0};
     b->ends[0] = line == 2 ? closed : line == 0 ? top : bottom;
     b->ends[1] = line == 2 ? closed : line == 0 ? bottom : top;
     b->ends[0].zero_mass = f->zero_mass == line + 1;
     if (f->end == line + 1)
-        b->ends[0] = (cmp_line_end){CMP_END_ALPHA_LOW, (double)NAN, (double)NAN, 0, 0};
+        b->ends[0] = (cmp_line_end){CMP_END_ALPHA_LOW, (double)NAN, (double)NAN, 0, 0, 0};
     b->least_mass = (line == 2 ? 8 : 1) * (1 + f->least);
     b->least_mass_error = 1e-12;
 }
@@ -186,9 +191,10 @@ static cv_status fake_lines_find(void *handle, cmp_branches *out, int digits, cv
     return CV_OK;
 }
 
-static cv_status fake_line_point(void *handle, cmp_line_point *out, int by_q, mpfr_srcptr given, double start,
-                                 double reach, int digits, cv_message *why)
+static cv_status fake_line_point(void *handle, cmp_line_point *out, int by_q, mpfr_srcptr given,
+                                 mpfr_srcptr from, double reach, int digits, cv_message *why)
 {
+    const double start = mpfr_get_d(from, MPFR_RNDN);
     const line_faults *f = handle;
     (void)digits;
     for (int line = 0; line < FAKE_LINES && !f->blind; line++) {

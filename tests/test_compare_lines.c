@@ -188,6 +188,9 @@ START_TEST(other_ends_and_extremes_disagree)
     expect(CMP_DISAGREE, "1 turning points by semianalytic, 0 by dgreen");
     fake_line[0].asymptote = (double)NAN;
     expect(CMP_UNDECIDED, "only dgreen knows of the asymptote at alpha = ");
+    fake_line[0].asymptote = (double)NAN;
+    fake_line[0].open = 1;
+    expect(CMP_AGREE, ""); /* the one that does not know claims nothing */
     fake_line[0].asymptote = fake_line[1].asymptote = (double)NAN;
     expect(CMP_AGREE, ""); /* neither claims one */
 }

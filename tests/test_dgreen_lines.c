@@ -365,27 +365,27 @@ START_TEST(test_points)
     for (size_t i = 0; i < f.lines.count; i++) {
         const dg_line *l = &f.lines.lines[i];
         const dg_line_vertex *v = &l->vertices[l->count / 2];
-        mpfr_t alpha;
+        mpfr_t alpha, q;
         cv_message why;
         if (v->turns)
             continue;
-        mpfr_init2(alpha, 53);
-        mpfr_set_d(alpha, v->alpha, MPFR_RNDN);
-        ck_assert_msg(dg_line_at_alpha(&p, f.track, alpha, v->q, v->scale / 10, POINT_DIGITS, &why) == CV_OK,
+        mpfr_init_set_d(alpha, v->alpha, MPFR_RNDN);
+        mpfr_init_set_d(q, v->q, MPFR_RNDN);
+        ck_assert_msg(dg_line_at_alpha(&p, f.track, alpha, q, v->scale / 10, POINT_DIGITS, &why) == CV_OK,
                       "%s", why.text);
-        mpfr_clear(alpha);
         ck_assert_double_le(p.frequency_error, 1e-40 * v->q);
         ck_assert_double_le(p.mass_ratio_error, 1e-40 * v->mass_ratio);
         ck_assert_double_eq(p.alpha_error, 0);
         ck_assert_double_eq_tol(mpfr_get_d(p.frequency, MPFR_RNDN), v->q, 1.01 * v->q_error + 1e-16 * v->q);
         ck_assert_double_eq_tol(mpfr_get_d(p.mass_ratio, MPFR_RNDN), v->mass_ratio, 1e-9 * v->mass_ratio);
         put_back(&p, f.track);
-        ck_assert_msg(dg_line_at_frequency(&back, f.track, p.frequency, v->alpha, 1e-9 * v->alpha,
-                                           POINT_DIGITS, &why) == CV_OK,
+        ck_assert_msg(dg_line_at_frequency(&back, f.track, p.frequency, alpha, 1e-9 * v->alpha, POINT_DIGITS,
+                                           &why) == CV_OK,
                       "%s", why.text);
         put_back(&back, f.track);
         mpfr_sub_d(back.alpha, back.alpha, v->alpha, MPFR_RNDN);
         ck_assert_double_le(fabs(mpfr_get_d(back.alpha, MPFR_RNDN)), 1e-24 * v->alpha);
+        mpfr_clears(alpha, q, (mpfr_ptr)0);
     }
     fixture_clear(&f);
     dg_line_point_clear(&p);
@@ -398,19 +398,20 @@ START_TEST(test_points_refused)
 {
     dg_track *t = track_of("6 35 300 7 0.1 0.1 0.1 0 0");
     dg_line_point p;
-    mpfr_t alpha, none;
+    mpfr_t alpha, none, low, minus;
     cv_message why;
     dg_line_point_init(&p);
     mpfr_init2(alpha, 53);
     mpfr_init2(none, 53);
     mpfr_set_d(alpha, 0.3, MPFR_RNDN);
     mpfr_set_zero(none, 1);
-    ck_assert_int_eq(dg_line_at_alpha(&p, t, alpha, 1e-3, 1e-4, 20, &why), CV_UNDECIDED);
-    ck_assert_int_eq(dg_line_at_alpha(&p, t, alpha, -1, 1e-4, 20, &why), CV_BAD_INPUT);
-    ck_assert_int_eq(dg_line_at_alpha(&p, t, alpha, 0.2, 0, 20, &why), CV_BAD_INPUT);
-    ck_assert_int_eq(dg_line_at_frequency(&p, t, none, 0.3, 0.1, 20, &why), CV_BAD_INPUT);
-    mpfr_clear(alpha);
-    mpfr_clear(none);
+    mpfr_init_set_d(low, 1e-3, MPFR_RNDN);
+    mpfr_init_set_d(minus, -1, MPFR_RNDN);
+    ck_assert_int_eq(dg_line_at_alpha(&p, t, alpha, low, 1e-4, 20, &why), CV_UNDECIDED);
+    ck_assert_int_eq(dg_line_at_alpha(&p, t, alpha, minus, 1e-4, 20, &why), CV_BAD_INPUT);
+    ck_assert_int_eq(dg_line_at_alpha(&p, t, alpha, alpha, 0, 20, &why), CV_BAD_INPUT);
+    ck_assert_int_eq(dg_line_at_frequency(&p, t, none, alpha, 0.1, 20, &why), CV_BAD_INPUT);
+    mpfr_clears(alpha, none, low, minus, (mpfr_ptr)0);
     dg_line_point_clear(&p);
     dg_track_free(t);
 }
