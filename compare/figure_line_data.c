@@ -18,10 +18,11 @@ cmp_line_range cmp_line_range_of(const cmp_velocities *v, const cv_case *c)
 
 static const char *kind_text(sa_line_kind kind)
 {
-    static const char *const texts[] = {
-        [SA_LINE_CLOSED] = "closed",          [SA_LINE_INFINITE] = "infinite mass at both ends",
-        [SA_LINE_ZERO_MASS] = "to zero mass", [SA_LINE_OUT] = "leaves the velocities",
-        [SA_LINE_UNDECIDED] = "undecided",    [SA_LINE_LIMIT] = "limit without damping"};
+    static const char *const texts[] = {[SA_LINE_CLOSED] = "closed",
+                                        [SA_LINE_INFINITE] = "infinite mass at both ends",
+                                        [SA_LINE_ZERO_MASS] = "to zero mass",
+                                        [SA_LINE_OUT] = "leaves the velocities",
+                                        [SA_LINE_UNDECIDED] = "undecided"};
     return texts[kind];
 }
 

@@ -14,7 +14,7 @@ typedef struct {
     double alpha_error; /* absolute: where Im zeta at a tiny q changes its sign, proven, and what that q adds,
                          * from its square; 0 below what a double holds */
     int rises;          /* 1: c changes from - to + as alpha grows, -1: from + to - */
-    int has_line;       /* k > 0; otherwise Re zeta < 0: no mass has it */
+    int has_line;       /* k > 0; otherwise Re zeta <= 0: no mass has it */
     cv_status decided;  /* CV_UNDECIDED: the digits asked for were not reached */
 } sa_asymptote;
 

@@ -31,6 +31,7 @@ static void store_free(sa_line_store *s)
     cv_number_clear(&s->alpha_max);
     cv_number_clear(&s->mass_min);
     cv_number_clear(&s->mass_max);
+    sa_resonances_clear(&s->resonances);
     free(s->samples.item);
     free(s->line);
     free(s->end);
@@ -63,7 +64,7 @@ static cv_status set_floor(sa_line_store *s, double re_floor)
 }
 
 static cv_status store_new(sa_line_store **out, const cv_params *params, const sa_lines_range *range,
-                           cv_message *why)
+                           int digits, cv_message *why)
 {
     sa_line_store *s = calloc(1, sizeof *s);
     *out = s;
@@ -82,6 +83,8 @@ static cv_status store_new(sa_line_store **out, const cv_params *params, const s
     if (status == CV_OK)
         status = sa_map_build(&s->map, params, cv_number_get_double(range->alpha_min),
                               cv_number_get_double(range->alpha_max), why);
+    if (status == CV_OK && s->map.undamped)
+        status = sa_resonances(&s->resonances, params, digits + 1, why);
     if (status != CV_OK)
         return status;
     s->sweep = sa_sweep_new();
@@ -127,6 +130,8 @@ static cv_status run_pass(int *exhausted, sa_lines *lines, int refinement, const
     lines->line_count = s->line_count;
     if (status == CV_OK && !*exhausted)
         status = sa_lines_ends(lines);
+    if (status == CV_OK && !*exhausted && s->map.undamped)
+        status = sa_lines_complete_limit(lines);
     for (size_t i = 0; i < trace.place_count && status == CV_OK; ++i)
         status =
             sa_lines_doubt(lines, trace.place[i][0], trace.place[i][1], "lines meet or cannot be resolved");
@@ -167,7 +172,7 @@ cv_status sa_lines_find(sa_lines *out, const cv_params *params, const sa_lines_r
     *out = (sa_lines){.decided = CV_OK};
     cv_status status = check_range(range, why);
     if (status == CV_OK)
-        status = store_new(&out->store, params, range, why);
+        status = store_new(&out->store, params, range, digits, why);
     if (status == CV_OK)
         status =
             sa_asymptotes_find(&out->asymptotes, params, range->alpha_min, range->alpha_max, digits, why);

@@ -7,9 +7,11 @@
  * of eta_M into branches. What goes on beyond the cut is known: an asymptote (asymptotes.h), a point where
  * zeta = 0 at q > 0, another branch. Whatever does not fit together is an undecided end.
  *
- * Without damping the lines are the limit of the damped ones for all dampings alike (transitions.h). The map
- * has gaps then: lines end on branch curves and at special velocities. The vertical parts of the limit, at
- * special velocities, are no lines: sa_boundary_transitions lists them.
+ * Without damping the lines are the limit of the damped ones as eta_p = eta_b = eta_f tend to zero
+ * (transitions.h). It has, besides the points with Im zeta = 0, vertical parts at special velocities of the
+ * branch curves, where eta_M grows or falls at constant (alpha, q), and parts at eta_M = 0 along branch
+ * curves (limit_meeting.h). Only those parts of the vertical ones depend on eta_p : eta_b : eta_f that are
+ * passed up and down, so that N is the same on both sides.
  *
  * Every line runs so that, with alpha to the right and eta_M upwards, N is larger by 2 on its left. All
  * quantities are dimensionless. */
@@ -25,7 +27,9 @@ enum {
     SA_MARK_LEAST_MASS = 1, /* local minimum of eta_M along the line */
     SA_MARK_MOST_MASS = 2,  /* local maximum */
     SA_MARK_TURN = 4,       /* turning point: alpha has a local extremum along the line */
-    SA_MARK_CUT = 8         /* at an end of the range, where one coordinate is exact */
+    SA_MARK_CUT = 8,        /* at an end of the range, where one coordinate is exact */
+    SA_MARK_VERTICAL = 16,  /* without damping: on a vertical part, at a special velocity */
+    SA_MARK_CURVE = 32      /* without damping: on a branch curve, at less than 1e-12 of it */
 };
 
 /* |error| <= bound for each coordinate; a bound of 0 means exact, or less than a double holds. At marked
@@ -36,7 +40,11 @@ typedef struct {
     double alpha_error, q_error, eta_M_error;
     int marks;
     double value_error; /* of the extreme eta_M (LEAST_, MOST_MASS) or alpha (TURN); else 0 */
-    cv_status decided;  /* CV_UNDECIDED: a bound is larger than 10^-digits of its coordinate */
+    /* CV_UNDECIDED: a bound is larger than 10^-digits of its coordinate. On a vertical part alpha has all
+     * digits at a resonance velocity, and those of a double elsewhere; that does not make the lines
+     * undecided.
+     */
+    cv_status decided;
 } sa_line_vertex;
 
 /* Where a branch ends. */
@@ -47,8 +55,8 @@ typedef enum {
     SA_END_MASS_LOW,   /* the lower end of the range of eta_M */
     SA_END_MASS_HIGH,  /* the upper end */
     SA_END_UNDECIDED,  /* the pieces of the line do not fit together here */
-    SA_END_CURVE,      /* a branch curve; only without damping, as the next one */
-    SA_END_SPECIAL     /* a special velocity of the branch curves */
+    SA_END_CURVE,      /* undecided at a branch curve; only without damping, as the next one */
+    SA_END_SPECIAL     /* undecided at a special velocity of the branch curves */
 } sa_end_kind;
 
 /* What the line does beyond the end of its branch. */
@@ -59,10 +67,8 @@ typedef enum {
     SA_BEYOND_BRANCH,    /* comes back into the range of eta_M as branch "number" */
     SA_BEYOND_ALPHA_LOW, /* leaves the range of alpha outside that of eta_M */
     SA_BEYOND_ALPHA_HIGH,
-    SA_BEYOND_CURVE, /* ends on a branch curve: with eta_M -> 0 on the side without the waves that meet there,
-                        else it runs on along the curve, nearer than double resolves */
-    SA_BEYOND_SPECIAL /* ends in a special velocity, from which the limit of the damped lines goes on along
-                         alpha = const */
+    SA_BEYOND_VERTICAL /* without damping: eta_M grows to infinity at (zero_alpha, zero_q), a special velocity
+                          (q = 0: a resonance velocity) or, rarely, a branch curve */
 } sa_beyond_kind;
 
 typedef struct {
@@ -79,8 +85,7 @@ typedef enum {
     SA_LINE_ZERO_MASS, /* one end leaves the range of alpha at its upper end, on the way to zero mass at
                         * infinite velocity */
     SA_LINE_OUT,       /* leaves the range of alpha at its lower end, or at the upper with both ends */
-    SA_LINE_UNDECIDED, /* an end is */
-    SA_LINE_LIMIT      /* without damping: an end is on a branch curve or at a special velocity */
+    SA_LINE_UNDECIDED  /* an end is */
 } sa_line_kind;
 
 typedef struct {
@@ -129,8 +134,8 @@ void sa_lines_clear(sa_lines *lines);
 
 /* N(alpha, eta_M) by the lines: 2 (those that pass alpha below eta_M towards larger alpha, minus those
  * towards smaller alpha). CV_UNDECIDED: a line passes or turns at the point within double precision, or lines
- * are undecided; always without damping, where lines end. CV_BAD_INPUT: alpha outside the range, eta_M not
- * positive or above SA_LINES_MASS_MAX. */
+ * are undecided; without damping also next to a special velocity. CV_BAD_INPUT: alpha outside the range,
+ * eta_M not positive or above SA_LINES_MASS_MAX. */
 cv_status sa_lines_count(int *roots, sa_lines *lines, double alpha, double eta_M, cv_message *why);
 
 /* Puts a point on a line: one coordinate is given exactly, the other is the zero of Im zeta next to "start",
@@ -139,9 +144,9 @@ typedef enum { SA_GIVEN_ALPHA, SA_GIVEN_Q } sa_line_given;
 
 /* out is initialised here and has relative bounds below 10^-digits (eta_M: as far as Re zeta varies linearly
  * over the enclosure) where decided. *rises: 1 when Im zeta grows with the coordinate sought, else -1, 0 if
- * undecided. eta_M is negative where Re zeta is. The zero found need not be the nearest to start if start is
- * not near; compare. sweep is only a warm start. CV_OK also when undecided; CV_BAD_INPUT: given or start not
- * positive. */
+ * undecided. eta_M is negative where Re zeta is, and 0 where that is exactly 0, which happens without
+ * damping. The zero found need not be the nearest to start if start is not near; compare. sweep is only a
+ * warm start. CV_OK also when undecided; CV_BAD_INPUT: given or start not positive. */
 cv_status sa_line_point(sa_line_vertex *out, int *rises, sa_sweep *sweep, const sa_track *track,
                         sa_line_given which, const mpfr_t given, double start, int digits);
 /* The same from a start in any precision. */

@@ -35,7 +35,7 @@ static cv_status try_vertex(sa_branch *b, const sa_line_store *store, size_t i)
     double alpha = mpfr_get_d(v->alpha, MPFR_RNDN), q = mpfr_get_d(v->q, MPFR_RNDN),
            eta_M = mpfr_get_d(v->eta_M, MPFR_RNDN);
     sa_crossings list;
-    if (v->decided != CV_OK || (v->marks & SA_MARK_TURN))
+    if (v->decided != CV_OK || (v->marks & (SA_MARK_TURN | SA_MARK_VERTICAL | SA_MARK_CURVE)))
         return CV_OK;
     cv_status status = sa_crossings_find(&list, &store->map, store->field, alpha, 0.5 / eta_M, NULL);
     if (status == CV_OK && count_at(b, &list, eta_M, q)) {
@@ -46,6 +46,46 @@ static cv_status try_vertex(sa_branch *b, const sa_line_store *store, size_t i)
     return status == CV_FAILED ? status : CV_OK;
 }
 
+/* N beside a closed column. */
+static cv_status beside(int *roots, const sa_line_store *store, double alpha, double eta_M)
+{
+    sa_crossings list;
+    cv_status status = sa_crossings_find(&list, &store->map, store->field, alpha, 0.5 / eta_M, NULL);
+    if (status == CV_OK)
+        status = sa_crossings_count(roots, &list, 1 / eta_M);
+    sa_crossings_clear(&list);
+    return status;
+}
+
+/* A vertical branch between its ends. Where it is not the only one, a resonance velocity has one upwards on
+ * the side of smaller alpha and one downwards on the other (limit_meeting.h). */
+static cv_status count_vertical(sa_branch *b, const sa_line_store *store)
+{
+    const sa_map *map = &store->map;
+    const sa_line_vertex *from = &b->vertex[0], *to = &b->vertex[b->count - 1];
+    double alpha = mpfr_get_d(from->alpha, MPFR_RNDN), low = mpfr_get_d(from->eta_M, MPFR_RNDN),
+           high = mpfr_get_d(to->eta_M, MPFR_RNDN);
+    int upwards = low < high, roots[2];
+    size_t i = 0;
+    while (i < map->count && !(map->column[i].closed && map->column[i].alpha_high > alpha))
+        ++i;
+    if (i == 0 || i + 1 >= map->count)
+        return CV_OK;
+    const sa_column *c = &map->column[i];
+    double mass = sqrt(low * high),
+           at[2] = {c->alpha_low - c[-1].length_high / 10, c->alpha_high + c[1].length_low / 10};
+    for (int k = 0; k < 2; ++k) {
+        cv_status status = beside(&roots[k], store, at[k], mass);
+        if (status != CV_OK)
+            return status == CV_UNDECIDED ? CV_OK : status;
+    }
+    b->roots_left = roots[upwards ? 0 : 1];
+    b->roots_right = b->roots_left - 2;
+    if (b->roots_right == roots[upwards ? 1 : 0] || mpfr_zero_p(from->q))
+        b->counted = CV_OK;
+    return CV_OK;
+}
+
 /* From the middle of the branch outwards. */
 cv_status sa_branch_count(sa_branch *branch, const sa_line_store *store)
 {
@@ -53,6 +93,9 @@ cv_status sa_branch_count(sa_branch *branch, const sa_line_store *store)
     cv_status status = CV_OK;
     size_t middle = branch->count / 2;
     branch->counted = CV_UNDECIDED;
+    if ((branch->vertex[0].marks & SA_MARK_VERTICAL) &&
+        (branch->vertex[branch->count - 1].marks & SA_MARK_VERTICAL))
+        return count_vertical(branch, store);
     for (size_t k = 0; k < TRIES && status == CV_OK && branch->counted != CV_OK; ++k) {
         size_t step = (k + 1) / 2, i = k % 2 ? middle + step : middle - step;
         if (i < branch->count)

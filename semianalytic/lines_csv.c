@@ -6,9 +6,8 @@
 
 const char *sa_line_kind_text(sa_line_kind kind)
 {
-    static const char *const text[] = {"closed",       "infinite mass at both ends",
-                                       "to zero mass", "leaves the range of alpha",
-                                       "undecided",    "limit without damping"};
+    static const char *const text[] = {"closed", "infinite mass at both ends", "to zero mass",
+                                       "leaves the range of alpha", "undecided"};
     return text[kind];
 }
 
@@ -21,8 +20,8 @@ const char *sa_end_kind_text(sa_end_kind kind)
 
 const char *sa_beyond_text(sa_beyond_kind kind)
 {
-    static const char *const text[] = {"nothing",      "asymptote",     "zero of zeta", "branch",
-                                       "lowest alpha", "highest alpha", "branch curve", "special velocity"};
+    static const char *const text[] = {"nothing",      "asymptote",     "zero of zeta",    "branch",
+                                       "lowest alpha", "highest alpha", "special velocity"};
     return text[kind];
 }
 
@@ -51,6 +50,10 @@ char *sa_lines_decimal(const mpfr_t x, double error, int digits)
 
 static const char *mark_text(int marks)
 {
+    if (marks & SA_MARK_VERTICAL)
+        return "vertical";
+    if (marks & SA_MARK_CURVE)
+        return "branch curve";
     if (marks & SA_MARK_CUT)
         return "cut";
     if (marks & SA_MARK_TURN)

@@ -64,7 +64,7 @@ static cv_status add_vertex(sa_branch *b, const row *r, size_t i, sa_end_kind en
     around[2] = r->sample[i + 1 < r->count ? i + 1 : i];
     cv_status status = sa_line_refine(v, r->lines->store, &around[1], end, r->digits);
     ++b->count;
-    if (status == CV_OK && v->decided != CV_OK)
+    if (status == CV_OK && v->decided != CV_OK && !sa_line_in_limit(&r->sample[i]))
         status = sa_lines_doubt(r->lines, r->sample[i].alpha, r->sample[i].q,
                                 "a point of a line could not be refined");
     return status;
@@ -128,10 +128,6 @@ static void set_outer(sa_line_end *end, const sa_line_end *of_line)
         end->beyond = SA_BEYOND_ALPHA_LOW;
     if (cut && of_line->kind == SA_END_ALPHA_HIGH)
         end->beyond = SA_BEYOND_ALPHA_HIGH;
-    if (cut && of_line->kind == SA_END_CURVE)
-        end->beyond = SA_BEYOND_CURVE;
-    if (cut && of_line->kind == SA_END_SPECIAL)
-        end->beyond = SA_BEYOND_SPECIAL;
 }
 
 static void set_beyond(row *r)
@@ -157,10 +153,8 @@ static sa_line_kind line_kind(const sa_line_store *store, size_t line)
     if (store->line[line].closed)
         return SA_LINE_CLOSED;
     sa_end_kind a = store->end[line][0].kind, b = store->end[line][1].kind;
-    if (a == SA_END_UNDECIDED || b == SA_END_UNDECIDED)
+    if (a == SA_END_UNDECIDED || b == SA_END_UNDECIDED || a >= SA_END_CURVE || b >= SA_END_CURVE)
         return SA_LINE_UNDECIDED;
-    if (a >= SA_END_CURVE || b >= SA_END_CURVE)
-        return SA_LINE_LIMIT;
     if (a == SA_END_MASS_HIGH && b == SA_END_MASS_HIGH)
         return SA_LINE_INFINITE;
     if (a != SA_END_ALPHA_LOW && b != SA_END_ALPHA_LOW && a != b)

@@ -30,9 +30,10 @@ static int add(json_t *object, const char *key, json_t *value)
 
 static json_t *marks_of(const sa_line_vertex *v)
 {
-    static const char *const text[] = {"least eta_M", "most eta_M", "turning point", "cut"};
+    static const char *const text[] = {"least eta_M", "most eta_M", "turning point",
+                                       "cut",         "vertical",   "branch curve"};
     json_t *marks = json_array();
-    for (int i = 0; i < 4 && marks != NULL; ++i)
+    for (int i = 0; i < 6 && marks != NULL; ++i)
         if ((v->marks & 1 << i) && json_array_append_new(marks, json_string(text[i])) != 0)
             json_array_clear(marks);
     return marks;
@@ -64,7 +65,7 @@ static json_t *end_of(const sa_line_end *end, const sa_lines *lines, int digits)
         done = done && add(object, "alpha", decimal(a->alpha, a->alpha_error, digits));
     } else if (end->beyond == SA_BEYOND_BRANCH) {
         done = done && add(object, "branch", json_integer((json_int_t)end->number + 1));
-    } else if (end->beyond == SA_BEYOND_ZERO) {
+    } else if (end->beyond == SA_BEYOND_ZERO || end->beyond == SA_BEYOND_VERTICAL) {
         done = done && add(object, "alpha", json_real(end->zero_alpha)) &&
                add(object, "q", json_real(end->zero_q));
     }

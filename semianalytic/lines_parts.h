@@ -4,6 +4,7 @@
 
 #include "semianalytic/lines.h"
 #include "semianalytic/map_search.h"
+#include "semianalytic/resonances.h"
 
 /* The picture in which polylines must be accurate. */
 typedef struct {
@@ -90,8 +91,9 @@ struct sa_line_store {
     sa_line_samples samples;
     size_t line_count;
     sa_line *line;
-    sa_line_end (*end)[2]; /* of each line; kind SA_END_MASS_HIGH where it runs to infinite mass */
-    int torn;              /* the search has left something out: finer cells may help */
+    sa_line_end (*end)[2];        /* of each line; kind SA_END_MASS_HIGH where it runs to infinite mass */
+    int torn;                     /* the search has left something out: finer cells may help */
+    sa_resonance_list resonances; /* of undamped tracks, to the digits asked for */
 };
 
 /* Finds out how the lines end, and joins those that are one line below the floor of Re zeta; what is
@@ -100,6 +102,10 @@ cv_status sa_lines_ends(sa_lines *lines);
 
 /* Makes one line of those whose ends go on as each other (SA_BEYOND_BRANCH with the number of the line). */
 cv_status sa_lines_join(sa_lines *lines);
+
+/* Without damping: joins the lines along branch curves and at special velocities, where they have vertical
+ * parts. Marks of samples there are SA_MARK_CURVE and SA_MARK_VERTICAL. After sa_lines_ends. */
+cv_status sa_lines_complete_limit(sa_lines *lines);
 
 /* Something is undecided at this place, which is listed; the first one becomes the reason. */
 cv_status sa_lines_doubt(sa_lines *lines, double alpha, double q, const char *what);
@@ -129,6 +135,9 @@ sa_line_given sa_line_best_given(const sa_line_sample *sample);
  * are removed. CV_UNDECIDED: there is none, or it is not found to more digits than a double has; the sample
  * is then unsettled. */
 cv_status sa_line_settle_turn(const sa_line_store *store, sa_line *line, size_t k);
+
+/* 1 on a vertical part or a branch curve: no point of Im zeta = 0 of an undamped track. */
+int sa_line_in_limit(const sa_line_sample *sample);
 
 /* Numbers of roots on both sides of a branch. */
 cv_status sa_branch_count(sa_branch *branch, const sa_line_store *store);

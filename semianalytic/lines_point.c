@@ -149,6 +149,10 @@ static int mass_ratio(sa_line_vertex *out, solver *s, const mpfr_t low, const mp
 {
     mpfr_add(out->eta_M, low, high, MPFR_RNDN);
     mpfr_div_2ui(out->eta_M, out->eta_M, 1, MPFR_RNDN);
+    if (mpfr_zero_p(out->eta_M) && mpfr_zero_p(s->re_error)) { /* all waves, without damping: no mass */
+        out->eta_M_error = 0;
+        return 1;
+    }
     if (mpfr_cmpabs(out->eta_M, s->re_error) <= 0)
         return 0;
     mpfr_sub(s->scratch, high, low, MPFR_RNDA);

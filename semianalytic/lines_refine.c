@@ -78,9 +78,65 @@ static cv_status on_line(sa_line_vertex *out, const sa_line_store *store, const 
     return status;
 }
 
+int sa_line_in_limit(const sa_line_sample *sample)
+{
+    return (sample->marks & (SA_MARK_VERTICAL | SA_MARK_CURVE)) != 0;
+}
+
+static void set_bound(sa_line_vertex *v, int digits)
+{
+    const double most = pow(10, -digits);
+    int held = v->alpha_error < most * mpfr_get_d(v->alpha, MPFR_RNDN) &&
+               v->q_error <= most * mpfr_get_d(v->q, MPFR_RNDN) &&
+               v->eta_M_error <= most * mpfr_get_d(v->eta_M, MPFR_RNDN);
+    v->decided = held ? CV_OK : CV_UNDECIDED;
+}
+
+/* A resonance velocity to the digits. */
+static void set_resonance(sa_line_vertex *v, const sa_resonance_list *list)
+{
+    const double same = 1e-13;
+    for (size_t i = 0; i < list->count; ++i) {
+        const sa_resonance *r = &list->item[i];
+        double alpha = mpfr_get_d(r->alpha, MPFR_RNDN);
+        if (!(fabs(alpha - mpfr_get_d(v->alpha, MPFR_RNDN)) < same * alpha))
+            continue;
+        mpfr_set_prec(v->alpha, mpfr_get_prec(r->alpha));
+        mpfr_set(v->alpha, r->alpha, MPFR_RNDN);
+        v->alpha_error = ldexp(alpha, -(int)r->bits);
+        v->q_error = 0;
+    }
+}
+
+/* On a vertical part, or on a branch curve. */
+static void in_limit(sa_line_vertex *out, const sa_line_store *store, const sa_line_sample *s,
+                     sa_end_kind end, int digits)
+{
+    const double rounding = 4e-15, gap = 1e-11, smooth = 1e-4;
+    int vertical = (s->marks & SA_MARK_VERTICAL) != 0;
+    *out = (sa_line_vertex){.marks = s->marks, .alpha_error = (vertical ? rounding : gap) * s->alpha};
+    out->q_error = (vertical ? rounding : gap) * (1 + s->q);
+    mpfr_init_set_d(out->alpha, s->alpha, MPFR_RNDN);
+    mpfr_init_set_d(out->q, s->q, MPFR_RNDN);
+    mpfr_init2(out->eta_M, 4 * digits + 128);
+    if (end == SA_END_MASS_LOW || end == SA_END_MASS_HIGH) {
+        cv_number_get_mpfr(out->eta_M, end == SA_END_MASS_LOW ? &store->mass_min : &store->mass_max);
+    } else {
+        mpfr_set_d(out->eta_M, 1 / s->re, MPFR_RNDN);
+        out->eta_M_error = smooth / s->re;
+    }
+    if (vertical && s->q == 0)
+        set_resonance(out, &store->resonances);
+    set_bound(out, digits);
+}
+
 cv_status sa_line_refine(sa_line_vertex *out, const sa_line_store *store, const sa_line_sample *sample,
                          sa_end_kind end, int digits)
 {
+    if (sa_line_in_limit(sample)) {
+        in_limit(out, store, sample, end, digits);
+        return CV_OK;
+    }
     switch (end) {
     case SA_END_ALPHA_LOW:
         return at_velocity(out, store, sample, &store->alpha_min, digits);

@@ -70,11 +70,9 @@ static int write_beyond(FILE *out, const sa_lines *lines, const sa_line_end *end
         done = fprintf(out, "%17sthen out of the range of alpha at its %s end\n", "",
                        end->beyond == SA_BEYOND_ALPHA_LOW ? "lower" : "upper") > 0;
         break;
-    case SA_BEYOND_CURVE:
-        done = fprintf(out, "%17sthen to a branch curve\n", "") > 0;
-        break;
-    case SA_BEYOND_SPECIAL:
-        done = fprintf(out, "%17sthen to a special velocity\n", "") > 0;
+    case SA_BEYOND_VERTICAL:
+        done = fprintf(out, "%17sthen to infinite mass at alpha = %.10g, q = %.10g\n", "", end->zero_alpha,
+                       end->zero_q) > 0;
         break;
     default:
         break;
@@ -111,6 +109,9 @@ static int write_counts(FILE *out, const sa_branch *b)
     if (b->counted != CV_OK)
         return fputs("  roots          not counted: other lines are too near\n", out) >= 0;
     const sa_line_vertex *v = &b->vertex[b->counted_at];
+    if (v->marks & SA_MARK_VERTICAL)
+        return fprintf(out, "  roots          %d unstable on the left, %d on the right\n", b->roots_left,
+                       b->roots_right) > 0;
     return fprintf(
                out,
                "  roots          %d unstable on the left, %d on the right, at alpha = %.10g, eta_M = %.10g\n",
@@ -125,6 +126,8 @@ static int write_branch(FILE *out, const sa_lines *lines, size_t i, int digits)
                        sa_line_kind_text(b->kind), b->count) > 0;
     done = done && write_end(out, lines, "from", &b->start, &b->vertex[0], digits);
     done = done && write_marks(out, b, digits);
+    if (b->vertex[0].marks & b->vertex[b->count - 1].marks & SA_MARK_VERTICAL)
+        done = done && fputs("  vertical\n", out) >= 0;
     if (b->start.kind != SA_END_CLOSED)
         done = done && write_end(out, lines, "to", &b->end, &b->vertex[b->count - 1], digits);
     return done && write_counts(out, b);
@@ -151,7 +154,7 @@ static int write_asymptote(FILE *out, const sa_lines *lines, const velocity *v)
     long branch = sa_lines_branch_of(&at_end, lines, v->number);
     const char *undecided = v->asymptote->decided == CV_OK ? "" : " (undecided)";
     if (!v->asymptote->has_line)
-        return fprintf(out, "zeros of c with zeta < 0: no line%s\n", undecided) > 0;
+        return fprintf(out, "zeros of c with zeta <= 0: no line%s\n", undecided) > 0;
     if (branch < 0)
         return fprintf(out, "asymptote, no branch in the range%s\n", undecided) > 0;
     return fprintf(out, "asymptote, branch %ld %s%s\n", branch + 1, at_end ? "ends" : "begins", undecided) >
