@@ -17,6 +17,7 @@ typedef struct {
     sa_field *field;
     double re_floor;
     const sa_meeting *meeting;
+    double level[2]; /* Re zeta at the ends of the range of eta_M, ascending */
     size_t rim_count;
     const double *rim;
     int arc;
@@ -64,23 +65,45 @@ static cv_status rim_at(sa_sample *s, const walk *w, const sa_map_node *node, in
     return sa_field_at_node(s, w->field, node, strip, side, 0, 1);
 }
 
+/* A curve that the map leaves out: zeta is the same on either side. */
+static cv_status rim_hidden(sa_sample rim[2], const walk *w, const sa_map_node *node, double q)
+{
+    const double beside = 1e-9;
+    int strip, side;
+    double t;
+    sa_map_locate(&strip, &side, &t, node, q * (1 + beside));
+    sa_field_block(w->field, 0, 0, strip, side);
+    cv_status status = sa_field_at_node(&rim[0], w->field, node, strip, side, t, 1);
+    rim[1] = rim[0];
+    return status;
+}
+
+/* Number of the curve at a node of the column; 0: left out by the map */
+static int curve_of(const sa_column *column, int arc)
+{
+    for (int i = 0; i < column->count; ++i)
+        if (column->curve[i] == arc)
+            return i + 1;
+    return 0;
+}
+
 static cv_status look(station *out, const walk *w, const sa_column *column, double alpha)
 {
     sa_map_node node;
     sa_wave wave;
-    sa_sample rim[2];
+    sa_sample rim[2]; /* on the side of the waves, on the other */
     long double q;
-    int curve = 0;
-    while (curve < column->count && column->curve[curve] != w->arc)
-        ++curve;
-    ++curve; /* 0 is q = 0 */
+    int curve = curve_of(column, w->arc);
     cv_status status = sa_map_node_of(&node, w->map, alpha);
     if (status != CV_OK || !arc_wave(&wave, &q, w->map, w->arc, node.alpha))
         return CV_FAILED;
     *out = (station){.alpha = node.alpha, .q = (double)fabsl(q), .doppler = q < 0 ? -1 : 1};
     out->up = (q >= 0) == (wave.d[2] > 0);
-    status = rim_at(&rim[0], w, &node, curve, out->up);
-    if (status == CV_OK)
+    if (curve == 0)
+        status = rim_hidden(rim, w, &node, out->q);
+    else
+        status = rim_at(&rim[0], w, &node, curve, out->up);
+    if (status == CV_OK && curve != 0)
         status = rim_at(&rim[1], w, &node, curve, !out->up);
     if (status != CV_OK)
         return status;
@@ -125,9 +148,10 @@ static void end_run(walk *w, int zero_mass, sa_run_end to)
     w->open[zero_mass] = 0;
 }
 
-/* Where the runs of one kind between two stations begin or end. */
+/* Where the runs of one kind between two stations begin or end; or, given a level, where Re zeta on the side
+ * of the waves passes it. */
 static cv_status bisect(station *at, const walk *w, const sa_column *column, station low, station high,
-                        int zero_mass)
+                        int zero_mass, double level)
 {
     const double spacing = 4e-16;
     *at = low.runs[zero_mass] ? low : high;
@@ -136,7 +160,9 @@ static cv_status bisect(station *at, const walk *w, const sa_column *column, sta
         cv_status status = look(&middle, w, column, low.alpha + (high.alpha - low.alpha) / 2);
         if (status != CV_OK)
             return status;
-        *(middle.runs[zero_mass] == low.runs[zero_mass] ? &low : &high) = middle;
+        int as_low = level > 0 ? (middle.re > level) == (low.re > level)
+                               : middle.runs[zero_mass] == low.runs[zero_mass];
+        *(as_low ? &low : &high) = middle;
         *at = low.runs[zero_mass] ? low : high;
     }
     return CV_OK;
@@ -146,17 +172,41 @@ static cv_status change(walk *w, const sa_column *column, const station *a, cons
 {
     const double sunk = 2;
     station at;
-    cv_status status = bisect(&at, w, column, *a, *b, zero_mass);
+    cv_status status = bisect(&at, w, column, *a, *b, zero_mass, 0);
     if (status != CV_OK)
         return status;
     int sinks = !zero_mass && at.re < sunk * w->re_floor;
     const sa_run_end end = {sinks ? SA_RUN_SINKS : SA_RUN_RIM, SA_COLUMN_PLAIN, at.alpha};
+    if (!sinks && curve_of(column, w->arc) == 0) {
+        w->out->hidden = 1;
+        w->out->hidden_at[0] = at.alpha;
+        w->out->hidden_at[1] = at.q;
+    }
     if (b->runs[zero_mass])
         status = begin_run(w, &at, zero_mass, end);
     if (status == CV_OK)
         status = add_sample(w, &at, zero_mass);
     if (status == CV_OK && !b->runs[zero_mass])
         end_run(w, zero_mass, end);
+    return status;
+}
+
+/* Samples at the ends of the range of eta_M. */
+static cv_status add_cuts(walk *w, const sa_column *column, const station *a, const station *b)
+{
+    int first = a->re < b->re ? 0 : 1;
+    cv_status status = CV_OK;
+    for (int i = 0; i < 2 && status == CV_OK; ++i) {
+        double level = w->level[first ? 1 - i : i];
+        station at;
+        if ((a->re > level) == (b->re > level))
+            continue;
+        status = bisect(&at, w, column, *a, *b, 0, level);
+        at.re = level;
+        if (status == CV_OK)
+            status = add_sample(w, &at, 0);
+        w->out->samples.item[w->out->samples.count - 1].marks |= SA_MARK_CUT;
+    }
     return status;
 }
 
@@ -167,6 +217,8 @@ static cv_status advance(walk *w, const sa_column *column, const station *a, con
     cv_status status = CV_OK;
     if (a->runs[zero_mass] != b->runs[zero_mass])
         status = change(w, column, a, b, zero_mass);
+    else if (b->runs[zero_mass] && !zero_mass)
+        status = add_cuts(w, column, a, b);
     if (status == CV_OK && b->runs[zero_mass])
         status = add_sample(w, b, zero_mass);
     return status;
@@ -180,12 +232,23 @@ static int ascending(const void *left, const void *right)
 
 enum { GRADED = 8 };
 
-/* Velocities at which the arc is looked at in a column: graded, and beside the ends of lines. Returns how
- * many; room for 2 GRADED + 1 + 2 rim_count. */
-static size_t velocities(double *alpha, const walk *w, size_t column)
+/* The part of a column in which the arc is; 0: none */
+static int overlap(double range[2], const walk *w, const sa_column *c)
 {
     const double beside = 1e-9;
-    const sa_column *c = &w->map->column[column];
+    const sa_branch_arc *a = &w->map->curves.arc[w->arc];
+    double high = (double)a->alpha_high * (isinf(a->p_high) ? 1 - beside : 1);
+    range[0] = fmax(c->alpha_low, (double)a->alpha_low);
+    /* the upper end belongs to the next column (sa_map_node_of) */
+    range[1] = fmin(nextafter(c->alpha_high, 0), high);
+    return range[0] < range[1];
+}
+
+/* Velocities at which the arc is looked at: graded, and beside the ends of lines. Returns how many; room for
+ * 2 GRADED + 1 + 2 rim_count. */
+static size_t velocities(double *alpha, const walk *w, const sa_column *c, const double range[2])
+{
+    const double beside = 1e-9;
     size_t n = 0;
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < GRADED + side; ++i) {
@@ -196,22 +259,21 @@ static size_t velocities(double *alpha, const walk *w, size_t column)
     for (size_t i = 0; i < w->rim_count; ++i)
         for (int side = -1; side <= 1; side += 2) {
             double at = w->rim[i] * (1 + side * beside);
-            if (at > c->alpha_low && at < c->alpha_high)
+            if (at > range[0] && at < range[1])
                 alpha[n++] = at;
         }
+    for (size_t i = 0; i < n; ++i)
+        alpha[i] = fmin(fmax(alpha[i], range[0]), range[1]);
     qsort(alpha, n, sizeof *alpha, ascending);
-    alpha[n - 1] =
-        nextafter(c->alpha_high, 0); /* the upper end belongs to the next column (sa_map_node_of) */
     return n;
 }
 
-static cv_status walk_column(walk *w, size_t column, int zero_mass)
+static cv_status walk_column(walk *w, const sa_column *c, const double range[2], int zero_mass)
 {
-    const sa_column *c = &w->map->column[column];
     double *alpha = calloc(2 * GRADED + 2 + 2 * w->rim_count, sizeof *alpha);
     if (alpha == NULL)
         return CV_FAILED;
-    size_t n = velocities(alpha, w, column);
+    size_t n = velocities(alpha, w, c, range);
     station a, b;
     cv_status status = look(&a, w, c, alpha[0]);
     if (status == CV_OK && a.runs[zero_mass] && !w->open[zero_mass])
@@ -221,6 +283,8 @@ static cv_status walk_column(walk *w, size_t column, int zero_mass)
     if (status == CV_OK && a.runs[zero_mass])
         status = add_sample(w, &a, zero_mass);
     for (size_t i = 1; i < n && status == CV_OK; ++i) {
+        if (alpha[i] == alpha[i - 1])
+            continue;
         status = look(&b, w, c, alpha[i]);
         if (status == CV_OK)
             status = advance(w, c, &a, &b, zero_mass);
@@ -230,86 +294,106 @@ static cv_status walk_column(walk *w, size_t column, int zero_mass)
     return status;
 }
 
-/* The special velocity in a closed column at which this arc meets another curve; SA_COLUMN_PLAIN: none. */
-static long meets(const walk *w, const sa_column *c)
+static int has_terminal(const sa_meeting *m, int arc, int side)
 {
-    long found = SA_COLUMN_PLAIN;
-    for (size_t i = 0; i < w->map->curves.special_count; ++i) {
+    for (size_t i = 0; i < 2 * m->count; ++i) {
+        const sa_terminal *t = &m->bridge[i / 2].end[i % 2];
+        if (t->kind == SA_TERMINAL_CURVE && t->arc == arc && t->side == side)
+            return 1;
+    }
+    return 0;
+}
+
+/* A run between two special velocities in one closed column, which the map does not resolve. */
+static cv_status add_between(walk *w, long low, long high)
+{
+    const sa_meeting *m[2] = {&w->meeting[low], &w->meeting[high]};
+    sa_wave wave;
+    long double q;
+    if (!has_terminal(m[0], w->arc, 1) || !has_terminal(m[1], w->arc, -1))
+        return CV_OK;
+    if (!arc_wave(&wave, &q, w->map, w->arc, m[0]->alpha + (m[1]->alpha - m[0]->alpha) / 2))
+        return CV_FAILED;
+    station s = {.alpha = m[0]->alpha, .q = m[0]->q, .doppler = q < 0 ? -1 : 1};
+    s.up = (q >= 0) == (wave.d[2] > 0);
+    cv_status status = begin_run(w, &s, 1, (sa_run_end){SA_RUN_SPECIAL, low, m[0]->alpha});
+    if (status == CV_OK)
+        status = add_sample(w, &s, 1);
+    s.alpha = m[1]->alpha;
+    s.q = m[1]->q;
+    if (status == CV_OK)
+        status = add_sample(w, &s, 1);
+    if (status == CV_OK)
+        end_run(w, 1, (sa_run_end){SA_RUN_SPECIAL, high, m[1]->alpha});
+    return status;
+}
+
+/* A closed column: a run ends at the first special velocity at which this arc meets another, and begins at
+ * the last. */
+static cv_status pass_closed(walk *w, const sa_column *c, int zero_mass)
+{
+    long before = SA_COLUMN_PLAIN;
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < w->map->curves.special_count && status == CV_OK; ++i) {
         const sa_meeting *m = &w->meeting[i];
         if (m->alpha < c->alpha_low || m->alpha > c->alpha_high ||
             (m->arc[0] != w->arc && m->arc[1] != w->arc))
             continue;
-        found = found == SA_COLUMN_PLAIN ? (long)i : SA_COLUMN_SEVERAL;
+        const sa_run_end end = {SA_RUN_SPECIAL, (long)i, m->alpha};
+        if (w->open[zero_mass])
+            end_run(w, zero_mass, end);
+        if (before != SA_COLUMN_PLAIN && zero_mass)
+            status = add_between(w, before, (long)i);
+        w->begin = end;
+        before = (long)i;
     }
-    return found;
+    return status;
 }
 
-static int holds(const sa_column *c, int arc)
+/* Where the arc ends: at the shear speed, where its wave goes to p = infinity, or in a cusp, next to which
+ * there are no runs. */
+static sa_run_end end_of_arc(const walk *w, double alpha)
 {
-    for (int i = 0; i < c->count; ++i)
-        if (c->curve[i] == arc)
-            return 1;
-    return 0;
+    const sa_branch_arc *arc = &w->map->curves.arc[w->arc];
+    if (isinf(arc->p_high) && arc->alpha_high <= w->map->curves.alpha_max)
+        return (sa_run_end){SA_RUN_SHEAR, SA_COLUMN_PLAIN, (double)arc->alpha_high};
+    return (sa_run_end){SA_RUN_RIM, SA_COLUMN_PLAIN, alpha};
 }
 
 static cv_status walk_arc(walk *w, int zero_mass)
 {
+    const double near = 1e-8;
     cv_status status = CV_OK;
     w->begin = (sa_run_end){SA_RUN_RANGE, SA_COLUMN_PLAIN, 0};
     for (size_t i = 0; i < w->map->count && status == CV_OK; ++i) {
         const sa_column *c = &w->map->column[i];
-        long special = c->closed ? meets(w, c) : SA_COLUMN_PLAIN;
-        sa_run_end end = {special == SA_COLUMN_PLAIN ? SA_RUN_RIM : SA_RUN_SPECIAL, special, c->alpha_low};
-        if (!c->closed && holds(c, w->arc))
-            status = walk_column(w, i, zero_mass);
-        else if (w->open[zero_mass] && (!c->closed || special != SA_COLUMN_PLAIN))
-            end_run(w, zero_mass, end);
-        w->begin = end;
+        double range[2];
+        if (c->closed) {
+            status = pass_closed(w, c, zero_mass);
+            continue;
+        }
+        int here = overlap(range, w, c);
+        if (here)
+            status = walk_column(w, c, range, zero_mass);
+        w->begin = (sa_run_end){SA_RUN_RIM, SA_COLUMN_PLAIN, c->alpha_low};
+        if (w->open[zero_mass] && !(here && range[1] > c->alpha_high * (1 - near)))
+            end_run(w, zero_mass, end_of_arc(w, c->alpha_low));
     }
     if (w->open[zero_mass])
         end_run(w, zero_mass, (sa_run_end){SA_RUN_RANGE, SA_COLUMN_PLAIN, w->map->curves.alpha_max});
     return status;
 }
 
-/* Curves that the map leaves out are looked at in the middle of the column, where zeta is the same on either
- * side. */
-static cv_status look_hidden(walk *w)
-{
-    const double beside = 1e-9;
-    for (size_t i = 0; i < w->map->count; ++i) {
-        const sa_column *c = &w->map->column[i];
-        double alpha = c->alpha_low + (c->alpha_high - c->alpha_low) / 2, t;
-        sa_map_node node;
-        sa_sample s;
-        sa_wave wave;
-        long double q;
-        int strip, side;
-        if (c->closed || holds(c, w->arc) || !arc_wave(&wave, &q, w->map, w->arc, alpha))
-            continue;
-        if (sa_map_node_of(&node, w->map, alpha) != CV_OK)
-            return CV_FAILED;
-        sa_map_locate(&strip, &side, &t, &node, (double)fabsl(q) * (1 + beside));
-        sa_field_block(w->field, 0, 0, strip, side);
-        cv_status status = sa_field_at_node(&s, w->field, &node, strip, side, t, 1);
-        if (status != CV_OK)
-            return status;
-        if ((s.im > 0) == (q >= 0)) {
-            w->out->hidden = 1;
-            w->out->hidden_at[0] = alpha;
-            w->out->hidden_at[1] = (double)fabsl(q);
-        }
-    }
-    return CV_OK;
-}
-
 cv_status sa_curve_runs_find(sa_curve_runs *out, const sa_map *map, sa_field *field, double re_floor,
-                             const sa_meeting *meeting, size_t rim_count, const double *rim)
+                             const sa_meeting *meeting, const double level[2], size_t rim_count,
+                             const double *rim)
 {
     walk w = {.out = out,
               .map = map,
               .field = field,
               .re_floor = re_floor,
               .meeting = meeting,
+              .level = {level[0], level[1]},
               .rim_count = rim_count,
               .rim = rim};
     cv_status status = CV_OK;
@@ -317,8 +401,6 @@ cv_status sa_curve_runs_find(sa_curve_runs *out, const sa_map *map, sa_field *fi
         status = walk_arc(&w, 1);
         if (status == CV_OK)
             status = walk_arc(&w, 0);
-        if (status == CV_OK)
-            status = look_hidden(&w);
     }
     return status;
 }

@@ -12,15 +12,16 @@
 #include "semianalytic/lines_parts.h"
 
 typedef enum {
-    SA_RUN_RANGE,  /* the end of the range of velocities */
-    SA_RUN_RIM,    /* Im zeta changes its sign at the rim: a line comes to the curve there */
-    SA_RUN_SINKS,  /* Re zeta falls below the floor */
-    SA_RUN_SPECIAL /* a special velocity */
+    SA_RUN_RANGE,   /* the end of the range of velocities */
+    SA_RUN_RIM,     /* Im zeta changes its sign at the rim: a line comes to the curve there */
+    SA_RUN_SINKS,   /* Re zeta falls below the floor */
+    SA_RUN_SPECIAL, /* a special velocity */
+    SA_RUN_SHEAR    /* the shear speed "alpha", with q -> 0: Re zeta goes on to 0 there */
 } sa_run_end_kind;
 
 typedef struct {
     sa_run_end_kind kind;
-    long special; /* number of the special velocity; SA_COLUMN_SEVERAL: more than one */
+    long special; /* number of the special velocity */
     double alpha;
 } sa_run_end;
 
@@ -36,15 +37,17 @@ typedef struct {
     size_t count, room;
     sa_curve_run *item;
     sa_line_samples samples;
-    int hidden; /* there are more on curves that the map leaves out (map_build.h), e.g. at hidden_at */
+    int hidden; /* some end on curves that the map leaves out (map_build.h), e.g. at hidden_at */
     double hidden_at[2];
 } sa_curve_runs;
 
-/* All runs of an undamped map with Re zeta above the floor. meeting: of every special velocity; rim: the
+/* All runs of an undamped map with Re zeta above the floor. meeting: of every special velocity; level: Re
+ * zeta, ascending, at the ends of the range of eta_M, where there are samples marked SA_MARK_CUT; rim: the
  * velocities, ascending, at which lines come to the rim of a curve. out must be zero; clear it on any status.
  * CV_UNDECIDED: the sign at a rim could not be had. */
 cv_status sa_curve_runs_find(sa_curve_runs *out, const sa_map *map, sa_field *field, double re_floor,
-                             const sa_meeting *meeting, size_t rim_count, const double *rim);
+                             const sa_meeting *meeting, const double level[2], size_t rim_count,
+                             const double *rim);
 void sa_curve_runs_clear(sa_curve_runs *runs);
 
 /* The signed distance of (alpha, q) from the curve of an arc, positive on the side of its waves; NAN where

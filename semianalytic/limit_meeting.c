@@ -9,13 +9,14 @@
 typedef struct {
     int arc, doppler, sigma; /* S and sigma of the header */
     double p, slope;         /* of the double pole; dq/dalpha */
-    double strength;         /* A^2 / e but for a factor that all curves have */
+    double square, strength; /* A^2 and A^2 / e but for a factor that all curves have */
 } meeting_curve;
 
 static cv_status set_curve(meeting_curve *c, const sa_map *map, size_t arc, double alpha)
 {
     const sa_branch_arc *a = &map->curves.arc[arc];
     sa_wave wave;
+    double damping;
     long double q, at = fminl(fmaxl(alpha, a->alpha_low), a->alpha_high);
     if (sa_branch_arc_at(&wave, &q, &map->curves, arc, at) != CV_OK)
         return CV_FAILED;
@@ -23,7 +24,8 @@ static cv_status set_curve(meeting_curve *c, const sa_map *map, size_t arc, doub
     c->doppler = q < 0 ? -1 : 1;
     c->sigma = wave.d[2] > 0 ? c->doppler : -c->doppler;
     c->p = c->slope = (double)(-c->doppler * a->direction * wave.p);
-    c->strength = sa_map_strength(map, &wave);
+    c->square = sa_map_strength(&damping, map, &wave);
+    c->strength = c->square / damping;
     return CV_OK;
 }
 
@@ -107,10 +109,17 @@ static sa_terminal on_curve(const meeting_curve *c, const meeting_curve *other, 
     return (sa_terminal){SA_TERMINAL_CURVE, c->arc, within ? side : -side, INFINITY};
 }
 
-static void add(sa_meeting *m, sa_terminal a, sa_terminal b)
+static void add(sa_meeting *m, sa_terminal a, sa_terminal b, int side)
 {
     if (a.kind != SA_TERMINAL_INFINITE || b.kind != SA_TERMINAL_INFINITE)
-        m->bridge[m->count++] = (sa_bridge){{a, b}};
+        m->bridge[m->count++] = (sa_bridge){{a, b}, side};
+}
+
+/* Side of the special velocity on which X_1 : X_2 = A_1^2 : A_2^2 with both positive. */
+static int side_of_waves(const meeting_curve *a, const meeting_curve *b)
+{
+    double along = a->sigma * a->square - b->sigma * b->square;
+    return (along > 0) == (b->slope > a->slope) ? 1 : -1;
 }
 
 static cv_status opposite(sa_meeting *m, const meeting_curve curve[2], double re, int im_sign)
@@ -123,8 +132,9 @@ static cv_status opposite(sa_meeting *m, const meeting_curve curve[2], double re
     if (!(fabs(strong->strength - weak->strength) > equal * strong->strength))
         return CV_UNDECIDED;
     sa_terminal line = {SA_TERMINAL_LINE, -1, 0, re};
-    add(m, re > 0 ? line : at_infinity(), on_curve(weak, strong, 1));
-    add(m, on_curve(strong, weak, 1), on_curve(outer, inner, 0));
+    int side = side_of_waves(strong, weak);
+    add(m, re > 0 ? line : at_infinity(), on_curve(weak, strong, 1), side);
+    add(m, on_curve(strong, weak, 1), on_curve(outer, inner, 0), -side);
     return CV_OK;
 }
 
@@ -141,7 +151,7 @@ static cv_status crossing(sa_meeting *m, const sa_track *track, const meeting_cu
     if (curve[0].doppler != curve[1].doppler)
         return opposite(m, curve, re, im_sign);
     if (im_sign == curve[0].doppler)
-        add(m, on_curve(&curve[0], &curve[1], 0), on_curve(&curve[1], &curve[0], 0));
+        add(m, on_curve(&curve[0], &curve[1], 0), on_curve(&curve[1], &curve[0], 0), 0);
     return CV_OK;
 }
 
@@ -167,12 +177,12 @@ static cv_status resonance(sa_meeting *m, const sa_map *map, const sa_track *tra
                 below = {SA_TERMINAL_CURVE, c->arc, -1, INFINITY};
     if (c->sigma * c->doppler < 0)
         return CV_OK;
-    add(m, at_infinity(), above);
+    add(m, at_infinity(), above, 1);
     if (!(m->alpha > map->curves.alpha_min))
         return CV_OK;
     cv_status status = sign_below(&sign, track, m->alpha, c->p);
     if (status == CV_OK && sign > 0)
-        add(m, below, at_infinity());
+        add(m, below, at_infinity(), -1);
     return status;
 }
 

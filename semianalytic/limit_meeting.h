@@ -24,7 +24,10 @@
  * A resonance velocity is the meeting of a curve with its own reflection q -> -q. For sigma S > 0 (a minimum
  * of the phase velocity, a true one) a line comes from infinite mass to the curve above it; and, where Im B >
  * 0, another one from the curve below goes to infinite mass. For sigma S < 0 Re zeta is negative. Near a cusp
- * Im zeta has one sign, and no line. At the shear speed a curve comes to q = 0 with A -> 0.
+ * Im zeta has one sign, and no line. The two vertical parts that may be at one velocity lie on either side of
+ * it: Re T = 0 where |X_1| : |X_2| = A_1^2 : A_2^2, once with X_1, X_2 > 0 and once with X_1, X_2 < 0.
+ *
+ * At the shear speed a curve comes to q = 0 with A -> 0.
  *
  * Which wave is stronger depends on eta_p : eta_b : eta_f, here 1 : 1 : 1; nothing else does. */
 #ifndef CRITVEL_SEMIANALYTIC_LIMIT_MEETING_H
@@ -48,6 +51,7 @@ typedef struct {
 /* From one terminal to the other at constant alpha and q; no way where both have Re zeta = INFINITY. */
 typedef struct {
     sa_terminal end[2];
+    int side; /* on which side of the special velocity this is for small damping; 0: not known */
 } sa_bridge;
 
 enum { SA_BRIDGES_MAX = 2 };

@@ -29,7 +29,9 @@ enum {
     SA_MARK_TURN = 4,       /* turning point: alpha has a local extremum along the line */
     SA_MARK_CUT = 8,        /* at an end of the range, where one coordinate is exact */
     SA_MARK_VERTICAL = 16,  /* without damping: on a vertical part, at a special velocity */
-    SA_MARK_CURVE = 32      /* without damping: on a branch curve, at less than 1e-12 of it */
+    SA_MARK_CURVE = 32,     /* without damping: on a branch curve, at less than 1e-12 of it */
+    SA_MARK_BELOW = 64,     /* of vertical parts at one velocity: at smaller alpha for small damping */
+    SA_MARK_ABOVE = 128     /* at larger alpha */
 };
 
 /* |error| <= bound for each coordinate; a bound of 0 means exact, or less than a double holds. At marked

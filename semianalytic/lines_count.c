@@ -57,8 +57,8 @@ static cv_status beside(int *roots, const sa_line_store *store, double alpha, do
     return status;
 }
 
-/* A vertical branch between its ends. Where it is not the only one, a resonance velocity has one upwards on
- * the side of smaller alpha and one downwards on the other (limit_meeting.h). */
+/* A vertical branch between its ends. Where it is not the only one at its velocity, it is next to one side.
+ */
 static cv_status count_vertical(sa_branch *b, const sa_line_store *store)
 {
     const sa_map *map = &store->map;
@@ -79,10 +79,15 @@ static cv_status count_vertical(sa_branch *b, const sa_line_store *store)
         if (status != CV_OK)
             return status == CV_UNDECIDED ? CV_OK : status;
     }
-    b->roots_left = roots[upwards ? 0 : 1];
+    int right = b->vertex[0].marks & SA_MARK_BELOW   ? !upwards
+                : b->vertex[0].marks & SA_MARK_ABOVE ? upwards
+                                                     : 0;
+    int low_side = b->vertex[0].marks & (SA_MARK_BELOW | SA_MARK_ABOVE)
+                       ? !(b->vertex[0].marks & SA_MARK_BELOW)
+                       : !upwards;
+    b->roots_left = roots[low_side] + (right ? 2 : 0);
     b->roots_right = b->roots_left - 2;
-    if (b->roots_right == roots[upwards ? 1 : 0] || mpfr_zero_p(from->q))
-        b->counted = CV_OK;
+    b->counted = CV_OK;
     return CV_OK;
 }
 

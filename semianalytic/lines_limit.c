@@ -81,7 +81,9 @@ static cv_status find_runs(joining *j)
         if (!s->line[i / 2].closed && s->end[i / 2][i % 2].kind == SA_END_CURVE)
             rim[n++] = last_sample(s, i / 2, (int)(i % 2))->alpha;
     qsort(rim, n, sizeof *rim, ascending);
-    cv_status status = sa_curve_runs_find(&j->runs, &s->map, s->field, s->re_floor, j->meeting, n, rim);
+    const double level[2] = {s->plot.re_low, s->plot.re_high};
+    cv_status status =
+        sa_curve_runs_find(&j->runs, &s->map, s->field, s->re_floor, j->meeting, level, n, rim);
     free(rim);
     if (status == CV_UNDECIDED)
         status = sa_lines_doubt(j->lines, s->map.curves.alpha_min, 0,
@@ -149,7 +151,8 @@ static void set_line_end(part_end *e, const joining *j, size_t line, int at)
 
 static void set_run_end(part_end *e, const joining *j, const sa_curve_run *run, int upper)
 {
-    static const sa_end_kind kind[] = {SA_END_ALPHA_LOW, SA_END_CURVE, SA_END_MASS_HIGH, SA_END_SPECIAL};
+    static const sa_end_kind kind[] = {SA_END_ALPHA_LOW, SA_END_CURVE, SA_END_MASS_HIGH, SA_END_SPECIAL,
+                                       SA_END_MASS_HIGH};
     const sa_line_sample *s = &j->runs.samples.item[run->first + (upper ? run->count - 1 : 0)];
     *e = (part_end){.sample = s, .arc = run->arc, .on_waves = !run->zero_mass, .run = run->end[upper]};
     e->re = s->re;
@@ -277,6 +280,7 @@ static cv_status part_missing(const joining *j, double alpha, double q)
 static cv_status cross_bridge(const joining *j, size_t special, const sa_bridge *b)
 {
     const sa_meeting *m = &j->meeting[special];
+    int marks = SA_MARK_VERTICAL | (b->side < 0 ? SA_MARK_BELOW : b->side > 0 ? SA_MARK_ABOVE : 0);
     size_t end[2];
     for (int i = 0; i < 2; ++i) {
         end[i] = b->end[i].kind == SA_TERMINAL_INFINITE ? NONE : find_terminal(j, &b->end[i], special);
@@ -291,9 +295,9 @@ static cv_status cross_bridge(const joining *j, size_t special, const sa_bridge 
     if (end[0] != NONE && end[1] != NONE && end[0] % 2 == end[1] % 2)
         return part_missing(j, m->alpha, m->q);
     if (end[0] != NONE && end[1] != NONE)
-        join(j, end[0], end[1], m->alpha, m->q, SA_MARK_VERTICAL);
+        join(j, end[0], end[1], m->alpha, m->q, marks);
     else if (end[0] != NONE || end[1] != NONE)
-        to_infinite_mass(end_of(j, end[0] != NONE ? end[0] : end[1]), m->alpha, m->q, SA_MARK_VERTICAL);
+        to_infinite_mass(end_of(j, end[0] != NONE ? end[0] : end[1]), m->alpha, m->q, marks);
     return CV_OK;
 }
 
@@ -314,6 +318,8 @@ static cv_status settle_rest(const joining *j)
         part_end *e = end_of(j, i);
         if (is_free(j, i, SA_RUN_RIM) && e->arc >= 0 && !e->on_waves)
             to_infinite_mass(e, e->sample->alpha, e->sample->q, SA_MARK_CURVE);
+        else if (is_free(j, i, SA_RUN_SHEAR))
+            to_infinite_mass(e, e->run.alpha, 0, SA_MARK_VERTICAL);
         else if (is_free(j, i, SA_RUN_RIM) || is_free(j, i, SA_RUN_SPECIAL))
             status = part_missing(j, e->sample->alpha, e->sample->q);
     }

@@ -112,7 +112,7 @@ static void set_resonance(sa_line_vertex *v, const sa_resonance_list *list)
 static void in_limit(sa_line_vertex *out, const sa_line_store *store, const sa_line_sample *s,
                      sa_end_kind end, int digits)
 {
-    const double rounding = 4e-15, gap = 1e-11, smooth = 1e-4;
+    const double rounding = 4e-15, gap = s->marks & SA_MARK_CUT ? 1e-5 : 1e-11, smooth = 1e-4;
     int vertical = (s->marks & SA_MARK_VERTICAL) != 0;
     *out = (sa_line_vertex){.marks = s->marks, .alpha_error = (vertical ? rounding : gap) * s->alpha};
     out->q_error = (vertical ? rounding : gap) * (1 + s->q);

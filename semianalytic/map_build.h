@@ -44,8 +44,8 @@ double sa_map_grading(double damping, double size);
  * three dampings zero or much smaller, there are waves that stretch none of the other elements. */
 cv_status sa_map_dips(const sa_map *map, sa_map_cuts *cuts);
 
-/* A^2 / e of a wave (limit_meeting.h), times 8, for eta_p = eta_b = eta_f = 1. */
-double sa_map_strength(const sa_map *map, const sa_wave *wave);
+/* A^2 of a wave (limit_meeting.h), times 8; damping: e for eta_p = eta_b = eta_f = 1. */
+double sa_map_strength(double *damping, const sa_map *map, const sa_wave *wave);
 
 /* Undamped tracks: distance that is kept from a curve at q. */
 double sa_map_gap(double q);

@@ -24,12 +24,13 @@ static void mode_shape(double v[3], const sa_dispersion *d, long double p, long 
     }
 }
 
-double sa_map_strength(const sa_map *map, const sa_wave *wave)
+double sa_map_strength(double *damping, const sa_map *map, const sa_wave *wave)
 {
     double v[3], omega = (double)wave->omega;
     mode_shape(v, &map->curves.grid.track, wave->p, wave->omega);
-    double pad = v[0] - v[1], ballast = v[1] - v[2], damping = pad * pad + ballast * ballast + v[2] * v[2];
-    return pow(v[0], 4) / (omega * omega * fabs((double)wave->d[2]) * damping);
+    double pad = v[0] - v[1], ballast = v[1] - v[2];
+    *damping = pad * pad + ballast * ballast + v[2] * v[2];
+    return pow(v[0], 4) / (omega * omega * fabs((double)wave->d[2]));
 }
 
 static double damping_at(const sa_map *map, long double p, long double omega)
