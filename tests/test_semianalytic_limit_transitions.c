@@ -243,25 +243,6 @@ START_TEST(damped_lines_tend_to_those_without_damping)
 }
 END_TEST
 
-/* Without damping lines end on branch curves and pass special velocities. */
-START_TEST(lines_without_damping_end_somewhere)
-{
-    for (int c = 0; c < 4; c++) {
-        sa_lines lines;
-        find_lines(&lines, c, "0");
-        ck_assert_msg(lines.decided == CV_OK, "case %d: %s", c + 1, lines.reason.text);
-        for (size_t i = 0; i < lines.count; i++) {
-            const sa_branch *b = &lines.branch[i];
-            ck_assert_int_ne(b->kind, SA_LINE_UNDECIDED);
-            ck_assert_int_ne(b->start.kind, SA_END_UNDECIDED);
-            ck_assert_int_ne(b->end.kind, SA_END_UNDECIDED);
-            ck_assert(b->counted == CV_OK && b->roots_left == b->roots_right + 2);
-        }
-        sa_lines_clear(&lines);
-    }
-}
-END_TEST
-
 int main(void)
 {
     Suite *suite = suite_create("semianalytic transitions without damping");
@@ -271,7 +252,6 @@ int main(void)
     tcase_add_test(tests, jump_at_a_resonance_velocity);
     tcase_add_test(tests, order_at_a_resonance_velocity);
     tcase_add_test(tests, damped_lines_tend_to_those_without_damping);
-    tcase_add_test(tests, lines_without_damping_end_somewhere);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
