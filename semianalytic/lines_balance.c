@@ -140,6 +140,8 @@ static int fold_may_pass(const sa_line_sample *a, const sa_line_sample *b, const
     double low = fmin(a->re, fmin(b->re, c->re)), high = fmax(a->re, fmax(b->re, c->re));
     if (b->turn == SA_TURN_SETTLED)
         reach = b->alpha_error;
+    if (sa_line_in_limit(a) || sa_line_in_limit(b) || sa_line_in_limit(c)) /* known where they turn */
+        return 0;
     return before * after <= 0 && !(fabs(from_sample(alpha, b)) > reach) && !(low > CLEAR * level) &&
            !(high < level / CLEAR);
 }
