@@ -1,7 +1,7 @@
-/* One evaluation of zeta(alpha, q) by either method: warm, cold, 128 bits, 192 bits. Workload of
- * PERFORMANCE.md thinned to a few seconds: velocities 0.1 .. 1.5, frequencies log-spaced in 1e-3 .. 10, cases
- * 1 and 3, damping 0.05 and 1e-10. Absolute times belong to the machine; the ratios, medians of rounds that
- * interleave the ways, do not. */
+/* One evaluation of zeta(alpha, q) by either method: warm, cold, double-double (dgreen), 128 bits, 192 bits.
+ * Workload of PERFORMANCE.md thinned to a few seconds: velocities 0.1 .. 1.5, frequencies log-spaced in 1e-3
+ * .. 10, cases 1 and 3, damping 0.05 and 1e-10. Absolute times belong to the machine; the ratios, medians of
+ * rounds that interleave the ways, do not. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,6 +112,12 @@ static void wide(bench *b, double alpha, double q, mpfr_prec_t bits, int dgreen)
     mpc_clear(zeta);
 }
 
+static void dg_twofold(bench *b, double alpha, double q)
+{
+    dg_value v;
+    (void)dg_zeta_above_double(&v, b->follow, b->dg, alpha, CMPLX(0.0, q), INFINITY, INFINITY);
+}
+
 static void sa_128(bench *b, double alpha, double q)
 {
     wide(b, alpha, q, 128, 0);
@@ -142,6 +148,7 @@ static const struct {
             {"semianalytic, 192 bits", sa_192, 1},
             {"dgreen, double, warm", dg_warm, 0},
             {"dgreen, double, cold", dg_cold, 1},
+            {"dgreen, double-double", dg_twofold, 1},
             {"dgreen, 128 bits", dg_128, 1},
             {"dgreen, 192 bits", dg_192, 1}};
 
