@@ -65,13 +65,17 @@ int dg_branch_point_on(dg_branch_point *point, const dg_branch_curves *b, int cu
 
 /* Before a pair is born its two branch points are complex: q = q_c +- i |Im q| with, from the cubic expansion
  * of omega at the cusp, |Im q| = (2/3) sqrt(2 |alpha - alpha_c|^3 / |omega'''|). Next to a peak of the
- * curvature two branches nearly cross, and zeta varies over the inverse of the curvature. */
+ * curvature two branches nearly cross, and zeta varies over the inverse of the curvature where alpha lies
+ * between their group velocities. Elsewhere both waves are on the same side of the source, and the sum of
+ * their residues does not see how close they are. */
 static size_t add_soft(dg_branch_point *points, size_t n, const dg_bend *bend, size_t curve, double alpha)
 {
     for (int sign = 1; sign >= -1; sign -= 2) {
         const double missing = alpha - sign * bend->group, q = sign * alpha * bend->p - bend->omega;
         if (bend->cusp && (sign * bend->group < 0 || missing * bend->scale * sign > 0))
             continue; /* no event for this sign of p, or the pair is real and in the list already */
+        if (!bend->cusp && !(sign * alpha > bend->group_low && sign * alpha < bend->group_high))
+            continue;
         const double width = bend->cusp ? sqrt(2 * fabs(missing * missing * missing / bend->scale)) * 2 / 3
                                         : 0.1 / fabs(bend->scale);
         points[n++] = (dg_branch_point){fabs(q), q, sign * bend->p, fmax(width, 1e-15), (int)curve, 1};

@@ -117,6 +117,22 @@ static cv_status add_families(dg_branch_curves *b, int branch, size_t first, siz
     return CV_OK;
 }
 
+/* The group velocities on both sides of a peak of the curvature, where that has fallen to a small part, and
+ * as far again beyond. */
+static void set_groups(dg_bend *bend, const dg_wave_table *table, size_t peak)
+{
+    static const double SMALL = 0.03;
+    const double small = SMALL * fabs(table->at[peak].curvature);
+    size_t first = peak, last = peak;
+    while (first > 0 && fabs(table->at[first].curvature) > small)
+        first--;
+    while (last + 1 < table->count && fabs(table->at[last].curvature) > small)
+        last++;
+    const double one = table->at[first].group, other = table->at[last].group, room = fabs(other - one) / 4;
+    bend->group_low = fmin(one, other) - room;
+    bend->group_high = fmax(one, other) + room;
+}
+
 static void add_bend(dg_branch_curves *b, int branch, size_t i, int cusp)
 {
     const dg_wave_sample *at = &b->tables[branch].at[i];
@@ -125,8 +141,10 @@ static void add_bend(dg_branch_curves *b, int branch, size_t i, int cusp)
         return; /* bends only guide the sampling */
     dg_wave_at(&w, b->track, at->p, branch);
     const double third = (at[1].curvature - at[-1].curvature) / (at[1].p - at[-1].p);
-    b->bends[b->bend_count++] =
-        (dg_bend){branch, cusp, at->p, w.omega, w.group, cusp ? third : at->curvature};
+    dg_bend *bend = &b->bends[b->bend_count++];
+    *bend = (dg_bend){branch, cusp, at->p, w.omega, w.group, cusp ? third : at->curvature, 0, 0};
+    if (!cusp)
+        set_groups(bend, &b->tables[branch], i);
 }
 
 static cv_status cut_table(dg_branch_curves *b, int branch, cv_message *why)

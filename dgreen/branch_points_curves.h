@@ -27,7 +27,8 @@ typedef struct {
 typedef struct {
     int branch, cusp; /* cusp 1: group stationary; 0: peak of the curvature */
     double p, omega, group;
-    double scale; /* cusp: d^3 omega/dp^3; peak: curvature */
+    double scale;                 /* cusp: d^3 omega/dp^3; peak: curvature */
+    double group_low, group_high; /* peak: between them, with room, lie the group velocities on both sides */
 } dg_bend;
 
 enum { DG_MAX_FAMILIES = 64, DG_MAX_BENDS = 64 };
