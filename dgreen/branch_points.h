@@ -24,9 +24,11 @@ typedef struct {
     double p;     /* signed; d signed_q / d alpha */
     double width; /* > 0: distance of the damped branch point from the real axis, to first order; soft: see
                      below */
-    int curve;    /* which family alpha -> q_b(alpha); the same number at every alpha */
-    int soft; /* 1: no branch point at this alpha, but a wave of extreme curvature or none (two branch points
-                 that meet at another alpha): zeta varies over the distance width around q */
+    double peak; /* the largest |zeta| of the singular part, where it reaches that, to first order; soft: 0 */
+    int curve;   /* which family alpha -> q_b(alpha); the same number at every alpha */
+    int soft;  /* 1: no branch point at this alpha, but a wave of extreme curvature or none (two branch points
+                  that meet at another alpha): zeta varies over the distance width around q */
+    int quiet; /* 1: found to be of no account (dgreen/curve.c); 0 in lists that are new */
 } dg_branch_point;
 
 /* Where the pattern of branch points changes: two of them meet (one of them possibly reflected), one reaches

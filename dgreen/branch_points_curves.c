@@ -203,6 +203,13 @@ static double first_guess(const dg_wave_sample *at, double target)
     return at[0].p + (part > 0.02 && part < 0.98 ? part : 0.5) * (at[1].p - at[0].p);
 }
 
+/* Near q_b, Delta = (d Delta/dq) (q - q_b + omega'' (p - p_b)^2/2), so that the residue there is 4 q^2 R over
+ * (d Delta/dq) sqrt(2 omega'' (q - q_b)), and |q - q_b| is at least the width. */
+static double peak_of(const dg_track *t, double p, double q, const dg_wave *w, double width)
+{
+    return 4 * q * q * dg_wave_strength(t, p, w) / sqrt(2 * fabs(w->curvature) * width);
+}
+
 void dg_family_point(dg_branch_point *out, const dg_branch_curves *b, size_t family, double alpha)
 {
     const dg_family *f = &b->families[family];
@@ -231,6 +238,7 @@ void dg_family_point(dg_branch_point *out, const dg_branch_curves *b, size_t fam
         }
     }
     const double q = alpha * f->sign * p - w.omega;
-    const double width = dg_wave_shift(b->track, p, &w);
-    *out = (dg_branch_point){fabs(q), q, f->sign * p, fmax(width, 1e-18), (int)family, 0};
+    const double width = fmax(dg_wave_shift(b->track, p, &w), 1e-18);
+    *out = (dg_branch_point){fabs(q), q, f->sign * p, width, peak_of(b->track, p, q, &w, width), (int)family,
+                             0,       0};
 }

@@ -87,6 +87,15 @@ void dg_wave_near(dg_wave *w, const dg_track *t, double p, int branch, double om
     w->curvature = (first + 2 * Y * second) / w->omega - Y * first * first / (X * w->omega);
 }
 
+double dg_wave_strength(const dg_track *t, double p, const dg_wave *w)
+{
+    const double Y = p * p, X = w->omega * w->omega, e = 1 + t->eta_s * Y - t->mu_b * X;
+    const double r = (t->kappa_p - t->mu_s * X) * (t->kappa_b + e) + t->kappa_b * e;
+    cubic o;
+    cubic_at(&o, t, X, Y);
+    return fabs(r / (8 * w->omega * o.x)); /* Delta = 4 f, d f/dq = 2 sigma f_X */
+}
+
 double dg_wave_shift(const dg_track *t, double p, const dg_wave *w)
 {
     const double Y = p * p, X = w->omega * w->omega;

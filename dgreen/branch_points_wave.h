@@ -22,6 +22,9 @@ void dg_wave_at(dg_wave *w, const dg_track *t, double p, int branch);
 /* The same, faster when omega is near the frequency; 0: not known. */
 void dg_wave_near(dg_wave *w, const dg_track *t, double p, int branch, double omega);
 
+/* |R/(d Delta/dq)| at that wave, undamped: its share in zeta, without q^2 and the slope of q. */
+double dg_wave_strength(const dg_track *t, double p, const dg_wave *w);
+
 /* How far damping moves a branch point of that wave off the real q axis, to first order in the damping:
  * |Im Delta / (d Delta/dq)| at the real p and sigma = -omega of the undamped wave. */
 double dg_wave_shift(const dg_track *t, double p, const dg_wave *w);

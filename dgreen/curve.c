@@ -60,6 +60,41 @@ void dg_curve_sort(dg_curve *c)
     c->node_count = n;
 }
 
+/* A branch point is quiet when zeta on both sides has a negative real part that is this many times the peak;
+ * only narrow and low ones are looked at, in the others there is nothing to gain. */
+static const double QUIET = 10, NARROW = 1e-4, LOW = 1;
+/* How far from the branch point "on both sides" is: part of q, at most half way to another one */
+static const double BESIDE = 0.1;
+
+static double room_around(const dg_station *at, size_t i)
+{
+    double room = BESIDE * at->points[i].q;
+    for (size_t k = 0; k < at->count; k++)
+        if (k != i && !at->points[k].soft)
+            room = fmin(room, fabs(at->points[k].q - at->points[i].q) / 2);
+    return room;
+}
+
+/* Marks branch points at which zeta stays far from the positive real axis: the singular part, of which the
+ * peak is known, is too small. What was sampled for that becomes nodes. */
+static cv_status mark_quiet(dg_curve *c, const dg_probe *p, cv_message *why)
+{
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < c->at.count && status == CV_OK; i++) {
+        dg_branch_point *point = &c->at.points[i];
+        const double room = room_around(&c->at, i);
+        if (point->soft || !(point->width < NARROW * room && point->peak < LOW))
+            continue;
+        const size_t first = c->node_count;
+        status = dg_curve_add(c, p, point->q - room, why);
+        if (status == CV_OK)
+            status = dg_curve_add(c, p, point->q + room, why);
+        point->quiet =
+            status == CV_OK && fmax(c->nodes[first].re, c->nodes[first + 1].re) < -QUIET * point->peak;
+    }
+    return status;
+}
+
 /* The step from q to the next node: a part of the distance to every branch point and to 0, the same on the
  * way towards a point as away from it; on the point itself when it is that near. */
 static double step_at(const dg_station *at, double q, double part)
@@ -67,6 +102,8 @@ static double step_at(const dg_station *at, double q, double part)
     double step = part * q;
     for (size_t i = 0; i < at->count; i++) {
         const dg_branch_point *point = &at->points[i];
+        if (point->quiet)
+            continue;
         const double distance = fabs(q - point->q), core = CORE * point->width;
         const double room = sqrt(distance * distance + core * core);
         const double own = point->q <= q ? part * room : fmin(part / (1 + part) * room, distance);
@@ -120,7 +157,10 @@ cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_flo
     c->node_count = c->crossing_count = c->dip_count = 0;
     const double top = c->at.count ? c->at.points[c->at.count - 1].q : 0;
     const double q_last = 20 * (1 + alpha * alpha) + 5 * top;
-    status = lay_nodes(c, p, first_frequency(c, p), q_last, why);
+    if (p->look == 0 && p->track->damped)
+        status = mark_quiet(c, p, why);
+    if (status == CV_OK)
+        status = lay_nodes(c, p, first_frequency(c, p), q_last, why);
     if (status != CV_OK)
         return status;
     dg_curve_sort(c);

@@ -37,7 +37,8 @@ typedef struct {
 } dg_curve;
 
 /* Method: nodes at logarithmic distances from q = 0 and, on both sides, from every branch point, down to a
- * small part of its width, because zeta is smooth in the logarithm of that distance; then more nodes where Im
+ * small part of its width, because zeta is smooth in the logarithm of that distance (but not towards branch
+ * points too weak to bring zeta to the positive real axis from where it is); then more nodes where Im
  * zeta is not what the cubic through the neighbouring nodes leads to expect, where |Im zeta| has a minimum
  * that may hide two zeros, and where the curve turns. Ends: q so small that |zeta| < x_floor/2 with |zeta| ~
  * q^2 before it, and so large that the bare rail (Re zeta < 0, Im zeta < 0) rules. Not found: two zeros of Im

@@ -82,7 +82,12 @@ void dg_follow_note(dg_follow *f, double alpha, double q)
         f->here.alpha = alpha;
     }
     dg_follow_row *row = &f->here;
-    if ((row->count > 0 && q <= row->q[row->count - 1]) || !reserve(row))
+    if (row->count > 0 && q <= row->q[row->count - 1]) {
+        if (row->count >= LONG_ROW)
+            return;
+        row->count = 0; /* that was no sweep: one may begin here */
+    }
+    if (!reserve(row))
         return;
     row->q[row->count] = q;
     row->roots[row->count++] = f->roots;

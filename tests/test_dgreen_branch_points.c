@@ -361,6 +361,61 @@ START_TEST(hunt_finds_close_pairs)
 }
 END_TEST
 
+/* The largest |zeta - its mean over both sides| at distances of up to five widths from a branch point */
+static double singular_part(const dg_track *t, dg_follow *follow, double alpha, const dg_branch_point *point)
+{
+    enum { POINTS = 21 };
+    double complex zeta[POINTS + 2];
+    for (int k = 0; k < POINTS + 2; k++) {
+        const double widths = k == POINTS ? -1e3 : k == POINTS + 1 ? 1e3 : (k - POINTS / 2) / 2.0;
+        dg_value v;
+        ck_assert_int_eq(
+            dg_zeta_adaptive(&v, follow, t, alpha, CMPLX(0, point->q + widths * point->width), 1e-6, 1e-6),
+            CV_OK);
+        zeta[k] = CMPLX(v.re, v.im);
+    }
+    double most = 0;
+    for (int k = 0; k < POINTS; k++)
+        most = fmax(most, cabs(zeta[k] - (zeta[POINTS] + zeta[POINTS + 1]) / 2));
+    return most;
+}
+
+/* The peak is that of zeta: at low damping, far from other branch points, and where the curvature does not
+ * vanish, to a few percent. */
+START_TEST(peaks_are_those_of_zeta)
+{
+    gsl_rng *rng = random_start("test_dgreen_branch_points", 20240508);
+    dg_follow *follow = NULL;
+    int seen = 0;
+    ck_assert_int_eq(dg_follow_new(&follow, NULL), CV_OK);
+    for (int i = 0; i < 40; i++) {
+        dg_track *t = random_damped_track(rng);
+        dg_branch_curves *b = NULL;
+        dg_branch_point points[MAX_POINTS];
+        ck_assert_int_eq(dg_branch_curves_new(&b, t, 0.02, 2, NULL), CV_OK);
+        const double alpha = log_uniform(rng, 0.02, 2);
+        const size_t n = dg_branch_points_at(points, b, alpha);
+        for (size_t k = 0; k < n; k++) {
+            const dg_branch_point *point = &points[k];
+            double room = point->q;
+            for (size_t m = 0; m < n; m++)
+                room = m == k ? room : fmin(room, hypot(points[m].q - point->q, points[m].width));
+            if (point->soft || !(point->width < 1e-8 * room))
+                continue;
+            const double ratio = singular_part(t, follow, alpha, point) / point->peak;
+            ck_assert_msg(ratio > 0.9 && ratio < 1.1, "peak %g, ratio %g", point->peak, ratio);
+            seen++;
+        }
+        dg_branch_curves_free(b);
+        dg_track_free(t);
+    }
+    printf("%d peaks\n", seen);
+    ck_assert_int_gt(seen, 30);
+    dg_follow_free(follow);
+    gsl_rng_free(rng);
+}
+END_TEST
+
 /* How far zeta is from a straight line over 32 widths around q, relative; -1: not evaluated */
 static double unevenness(const dg_track *t, dg_follow *follow, double alpha, double q, double width)
 {
@@ -481,6 +536,7 @@ int main(void)
     tcase_add_test(c, nothing_happens_between_special_velocities);
     tcase_add_test(c, printed_resonances);
     tcase_add_test(c, hunt_finds_close_pairs);
+    tcase_add_test(c, peaks_are_those_of_zeta);
     tcase_add_test(c, near_crossings_that_zeta_does_not_see);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);

@@ -217,6 +217,47 @@ START_TEST(positions_invert)
 }
 END_TEST
 
+/* Re zeta at q; must be had */
+static double real_part(const bench *b, double alpha, double q)
+{
+    dg_value v;
+    ck_assert_int_eq(dg_zeta_adaptive(&v, b->follow, b->track, alpha, CMPLX(0, q), 1e-3, (double)INFINITY),
+                     CV_OK);
+    return v.re;
+}
+
+/* Next to branch points that the curve does not look at closely, Re zeta is negative at all distances, from a
+ * part of the width on. */
+START_TEST(quiet_branch_points_stay_quiet)
+{
+    gsl_rng *rng = random_start("test_dgreen_curve", 20240605);
+    int seen = 0;
+    for (int i = 0; i < 60; i++) {
+        /* weakly coupled to the shear waves of the ballast, or anything */
+        bench b =
+            bench_open(i % 3 ? random_damped_track(rng)
+                             : track_of("1.00085 30.1569 21067.1 0.568674 1e-10 1e-10 1e-10 1.59728 0"));
+        dg_curve c = {0};
+        for (int j = 0; j < 4; j++) {
+            const double alpha = some_velocity(&b, rng);
+            ck_assert_int_eq(dg_curve_at(&c, &b.probe, alpha, FLOOR, NULL), CV_OK);
+            for (size_t k = 0; k < c.at.count; k++) {
+                const dg_branch_point *point = &c.at.points[k];
+                for (double d = point->width / 8; point->quiet && d < 0.01 * point->q; d *= 2)
+                    ck_assert(real_part(&b, alpha, point->q - d) < 0 &&
+                              real_part(&b, alpha, point->q + d) < 0);
+                seen += point->quiet;
+            }
+        }
+        dg_curve_clear(&c);
+        bench_close(&b);
+    }
+    printf("%d quiet branch points\n", seen);
+    ck_assert_int_gt(seen, 20);
+    gsl_rng_free(rng);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dgreen curve");
@@ -227,6 +268,7 @@ int main(void)
     tcase_add_test(c, slopes_lead_to_the_neighbour);
     tcase_add_test(c, known_crossings);
     tcase_add_test(c, positions_invert);
+    tcase_add_test(c, quiet_branch_points_stay_quiet);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
