@@ -247,7 +247,7 @@ cv_status sa_crossings_find(sa_crossings *out, const sa_map *map, sa_field *fiel
 cv_status sa_crossings_find_finer(sa_crossings *out, const sa_map *map, sa_field *field, double alpha,
                                   double re_low, int refinement, cv_message *why)
 {
-    const double interval = 2 / pow(1.7, refinement), tolerance = ldexp(0.2, -refinement);
+    const double interval = 0.5 / pow(1.7, refinement), tolerance = ldexp(0.2, -refinement);
     sa_map_node node;
     *out = (sa_crossings){0};
     cv_status status = sa_map_node_of(&node, map, alpha);

@@ -231,18 +231,43 @@ START_TEST(counts_by_crossings_and_by_winding)
 }
 END_TEST
 
-/* Between 0.7361 (4 to 6 roots) and 0.7467 (6 to 4), both proved by Arb, two crossings of one interval of the
- * scan were overlooked. */
+/* Counts between transitions that are proved by Arb, where the scan overlooked two crossings once: in one
+ * interval that was long though not uneven (0.7361 to 0.7467); and where a wave of nearly the group velocity
+ * alpha, but no branch point, makes Im zeta dip below zero at q = 0.22 to 0.24 only (1.3193 to 1.4023). */
+typedef struct {
+    const char *track[6], *damping;
+    int count;
+    struct {
+        double alpha;
+        int roots;
+    } at[8];
+} counted_track;
+
+static const counted_track overlooked[] = {
+    {{"5.97428", "28.6842", "0.352994", "7.33908", "24.8051", "0.309401"},
+     "1e-10",
+     8,
+     {{0.7360, 4},
+      {0.7362, 6},
+      {0.7380, 6},
+      {0.7395, 6},
+      {0.741390824289846, 6},
+      {0.7440, 6},
+      {0.7466, 6},
+      {0.7468, 4}}},
+    {{"3.40877", "5.32283", "1.55424", "1.14251", "99.8379", "0"},
+     "1e-4",
+     6,
+     {{1.3192, 2}, {1.3194, 4}, {1.34756565465567, 4}, {1.37, 4}, {1.4022, 4}, {1.4024, 2}}}};
+
 START_TEST(two_crossings_in_one_interval)
 {
-    static const char *const track[6] = {"5.97428", "28.6842", "0.352994", "7.33908", "24.8051", "0.309401"};
-    static const double alpha[] = {0.7360, 0.7362, 0.7380, 0.7395, 0.741390824289846, 0.7440, 0.7466, 0.7468};
-    static const int wanted[] = {4, 6, 6, 6, 6, 6, 6, 4};
+    const counted_track *want = &overlooked[_i];
     cv_params params;
     cv_number low, high, mass;
     sa_boundary *boundary;
     cv_params_init(&params);
-    set_params(&params, track, "1e-10");
+    set_params(&params, want->track, want->damping);
     cv_number_init(&low);
     cv_number_init(&high);
     cv_number_init(&mass);
@@ -250,10 +275,11 @@ START_TEST(two_crossings_in_one_interval)
     set_text(&high, "2");
     set_text(&mass, "300");
     ck_assert_int_eq(sa_boundary_new(&boundary, &params, &low, &high, NULL), CV_OK);
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < want->count; i++) {
         int roots = -1;
-        ck_assert_int_eq(sa_boundary_unstable_roots(&roots, boundary, alpha[i], 1, &mass, NULL), CV_OK);
-        ck_assert_msg(roots == wanted[i], "alpha %g: %d", alpha[i], roots);
+        ck_assert_int_eq(sa_boundary_unstable_roots(&roots, boundary, want->at[i].alpha, 1, &mass, NULL),
+                         CV_OK);
+        ck_assert_msg(roots == want->at[i].roots, "alpha %g: %d", want->at[i].alpha, roots);
     }
     sa_boundary_free(boundary);
     cv_number_clear(&low);
@@ -394,7 +420,7 @@ int main(void)
     tcase_add_loop_test(tests, transitions_proved_elsewhere, 0, PROVED);
     tcase_add_test(tests, levels_of_effort);
     tcase_add_test(tests, counts_by_crossings_and_by_winding);
-    tcase_add_test(tests, two_crossings_in_one_interval);
+    tcase_add_loop_test(tests, two_crossings_in_one_interval, 0, 2);
     tcase_add_test(tests, a_missing_transition_is_noticed);
     tcase_add_test(tests, a_missing_last_transition_is_noticed);
     tcase_add_test(tests, candidates_joined_and_kept);
