@@ -183,10 +183,13 @@ static cv_status sharpen(dg_curve *c, const dg_probe *p, size_t i)
     return status == CV_OK ? dg_probe_sharpen(b, p, c->at.alpha) : status;
 }
 
-/* Whether zeta may exceed the floor near the interval after node i */
+/* Whether zeta may exceed the floor near the interval after node i: a neighbour does, or the curve need only
+ * be as far from the chord as a part of its length, for it may pass close to zero between two nodes. */
 static int relevant(const dg_curve *c, size_t i, size_t n)
 {
-    double most = fmax(c->nodes[i].re, c->nodes[i + 1].re);
+    static const double SAGITTA = 0.5;
+    const dg_node *a = &c->nodes[i], *b = a + 1;
+    double most = fmax(a->re, b->re) + SAGITTA * hypot(b->re - a->re, b->im - a->im);
     if (i > 0)
         most = fmax(most, c->nodes[i - 1].re);
     if (i + 2 < n)

@@ -258,6 +258,25 @@ START_TEST(quiet_branch_points_stay_quiet)
 }
 END_TEST
 
+/* A crossing close to zero, between two nodes on the negative side: it is there or not by Re zeta alone, not
+ * by where the nodes happen to be. Found on a random track. */
+START_TEST(crossing_between_negative_nodes)
+{
+    bench b = bench_open(track_of("4.37021 16.3432 147.72 0.166702 1e-4 1e-4 1e-4 6.31155 -0.923956"));
+    dg_curve c = {0};
+    for (int i = 0; i < 40; i++) {
+        const double alpha = 0.614218802351219 * (1 + 1e-15 * i);
+        int found = 0;
+        ck_assert_int_eq(dg_curve_at(&c, &b.probe, alpha, 3e-7, NULL), CV_OK);
+        for (size_t k = 0; k < c.crossing_count; k++)
+            found += fabs(c.crossings[k].q - 0.0404437566) < 1e-9 && fabs(c.crossings[k].x - 4.81e-6) < 1e-8;
+        ck_assert_int_eq(found, 1);
+    }
+    dg_curve_clear(&c);
+    bench_close(&b);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("dgreen curve");
@@ -269,6 +288,7 @@ int main(void)
     tcase_add_test(c, known_crossings);
     tcase_add_test(c, positions_invert);
     tcase_add_test(c, quiet_branch_points_stay_quiet);
+    tcase_add_test(c, crossing_between_negative_nodes);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
