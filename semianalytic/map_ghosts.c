@@ -113,6 +113,20 @@ static cv_status meetings(sa_map_cuts *cuts, const meeting *m)
     return CV_OK;
 }
 
+/* Two ghosts, straight as they are, meet once at most, and each the reflection of the other once. */
+static cv_status ghosts_meet(sa_map_cuts *cuts, const sa_ghost *a, const sa_ghost *b)
+{
+    double low = fmax(fmin(a->alpha, a->end), fmin(b->alpha, b->end));
+    double high = fmin(fmax(a->alpha, a->end), fmax(b->alpha, b->end));
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double apart = sa_map_ghost_q(a, low) + sign * sa_map_ghost_q(b, low);
+        double alpha = low - apart / (a->slope + sign * b->slope);
+        if (alpha > low && alpha < high && sa_map_cuts_add(cuts, alpha, 0) != CV_OK)
+            return CV_FAILED;
+    }
+    return CV_OK;
+}
+
 cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts)
 {
     const sa_branch_curves *curves = &map->curves;
@@ -126,6 +140,9 @@ cv_status sa_map_ghosts(sa_map *map, sa_map_cuts *cuts)
         if (make_ghost(ghost, map, i / 2, i % 2 == 1) != CV_OK ||
             sa_map_cuts_add(cuts, ghost->end, 0) != CV_OK)
             return CV_FAILED;
+        for (sa_ghost *other = map->ghost; other < ghost; ++other)
+            if (ghosts_meet(cuts, other, ghost) != CV_OK)
+                return CV_FAILED;
         for (int arc = -1; arc < (int)curves->arc_count; ++arc) {
             const meeting m = {curves, ghost, arc};
             if (meetings(cuts, &m) != CV_OK)

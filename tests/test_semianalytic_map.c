@@ -9,8 +9,9 @@
 #include "tests/semianalytic_points.h"
 
 /* Besides table 1: curves that meet often (many special velocities), with shear stiffness, and compressed. On
- * the last one the continuation of a curve beyond its cusp meets another one twice within 1e-4 of alpha. */
-enum { FIXED = 7 };
+ * one the continuation of a curve beyond its cusp meets another one twice within 1e-4 of alpha, on the last
+ * one two such continuations meet. */
+enum { FIXED = 8 };
 static const char *const fixed_track[FIXED][6] = {
     {"6", "35", "300", "7", "0", "0"},
     {"6", "5", "0.03", "3", "0", "0"},
@@ -18,7 +19,8 @@ static const char *const fixed_track[FIXED][6] = {
     {"2.30184", "6.7001", "0.968668", "0.681437", "25.2693", "-0.338056"},
     {"5.97428", "28.6842", "0.352994", "7.33908", "24.8051", "0.309401"},
     {"1.7", "50", "0.5", "20", "0.8", "-0.2"},
-    {"4.02946", "32.6686", "4660.01", "166.188", "0.291362", "0.812341"}};
+    {"4.02946", "32.6686", "4660.01", "166.188", "0.291362", "0.812341"},
+    {"1.14011", "33.5344", "9.07515", "5.64223", "32.2733", "0"}};
 
 typedef struct {
     cv_params params;
