@@ -117,8 +117,7 @@ static const sa_line_effort little = {150000, 8000}, much = {0, 100000};
 static cv_status run_pass(int *exhausted, sa_lines *lines, int refinement, const sa_line_effort *effort)
 {
     sa_line_store *s = lines->store;
-    sa_line_trace trace = {
-        .map = &s->map, .plot = s->plot, .re_floor = s->re_floor, .sharp = s->sharp};
+    sa_line_trace trace = {.map = &s->map, .plot = s->plot, .re_floor = s->re_floor, .sharp = s->sharp};
     forget(lines);
     cv_status status = sa_lines_trace(&trace, s->field, refinement, effort);
     *exhausted = status == CV_UNDECIDED;
@@ -156,13 +155,68 @@ static cv_status search(sa_lines *lines)
     return status;
 }
 
+/* What a pass has found */
+typedef struct {
+    sa_line_samples samples;
+    sa_line *line;
+    sa_line_end (*end)[2];
+    size_t line_count, place_count;
+    double (*place)[2];
+    cv_status decided;
+    cv_message reason;
+    int torn;
+} outcome;
+
+static outcome take(sa_lines *lines)
+{
+    sa_line_store *s = lines->store;
+    const outcome o = {s->samples,   s->line,        s->end,        s->line_count, lines->place_count,
+                       lines->place, lines->decided, lines->reason, s->torn};
+    s->samples = (sa_line_samples){0};
+    s->line = NULL;
+    s->end = NULL;
+    lines->place = NULL;
+    return o;
+}
+
+static void put_back(sa_lines *lines, const outcome *o)
+{
+    sa_line_store *s = lines->store;
+    forget(lines);
+    s->samples = o->samples;
+    s->line = o->line;
+    s->end = o->end;
+    lines->line_count = s->line_count = o->line_count;
+    lines->place_count = o->place_count;
+    lines->place = o->place;
+    lines->decided = o->decided;
+    lines->reason = o->reason;
+    s->torn = o->torn;
+}
+
+/* One more pass with finer cells; what was found before is better than a search without an end. */
+static cv_status refine(int *exhausted, sa_lines *lines, int refinement)
+{
+    outcome before = take(lines);
+    cv_status status = run_pass(exhausted, lines, refinement, &much);
+    if (status == CV_OK && *exhausted) {
+        put_back(lines, &before);
+        return status;
+    }
+    free(before.samples.item);
+    free(before.line);
+    free(before.end);
+    free(before.place);
+    return status;
+}
+
 static cv_status find(sa_lines *lines, int digits)
 {
     enum { PASSES = 3 };
-    int exhausted;
+    int exhausted = 0;
     cv_status status = search(lines);
-    for (int i = 1; i < PASSES && status == CV_OK && lines->store->torn; ++i)
-        status = run_pass(&exhausted, lines, i, &much);
+    for (int i = 1; i < PASSES && status == CV_OK && lines->store->torn && !exhausted; ++i)
+        status = refine(&exhausted, lines, i);
     return status == CV_OK ? sa_lines_cut(lines, digits) : status;
 }
 

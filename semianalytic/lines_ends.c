@@ -110,15 +110,18 @@ static void classify(sa_line_end *end, const sa_line_store *store, const sa_line
 
 /* A line followed beyond the floor: alpha as a function of log q. */
 typedef struct {
-    double alpha, q, slope; /* d alpha / d log q */
-    double eta_M;
+    double alpha, q, eta_M;
+    double slope, bend, last; /* d alpha / d log q over the last step, how it changes with log q, that step */
+    int rises;                /* Im zeta with alpha there, 1 or -1; 0 before the first step */
 } runner;
 
 /* One step of the logarithm of q; 1 when the line is where its slope says, 0 when the step was too long. */
 static cv_status run(int *on_line, runner *r, const sa_line_store *store, double step)
 {
-    const double bend = 0.3, least = 1e-9;
-    const double q = r->q * exp(step), expected = r->alpha + r->slope * step;
+    enum { DIGITS = 16 };
+    const double unsteady = 0.25, least = r->rises == 0 ? 1e-9 : 1e-13, most = 3;
+    const double q = r->q * exp(step), slope = r->slope + r->bend * (r->last + step) / 2,
+                 expected = r->alpha + slope * step;
     sa_line_vertex v;
     mpfr_t exact_q;
     int rises;
@@ -127,11 +130,14 @@ static cv_status run(int *on_line, runner *r, const sa_line_store *store, double
         return CV_OK;
     mpfr_init_set_d(exact_q, q, MPFR_RNDN);
     cv_status status =
-        sa_line_point(&v, &rises, store->sweep, store->track, SA_GIVEN_Q, exact_q, expected, 8);
+        sa_line_point(&v, &rises, store->sweep, store->track, SA_GIVEN_Q, exact_q, expected, DIGITS);
     double alpha = mpfr_get_d(v.alpha, MPFR_RNDN), eta_M = mpfr_get_d(v.eta_M, MPFR_RNDN);
-    int near = fabs(alpha - expected) < bend * fabs(r->slope * step) + least * alpha;
+    int near = fabs(alpha - expected) < unsteady * fabs(slope * step) + least * alpha &&
+               (r->rises == 0 || r->rises == rises) &&
+               (isinf(r->eta_M) || (fabs(eta_M) * most > r->eta_M && eta_M < most * r->eta_M));
     if (status == CV_OK && v.decided == CV_OK && near) {
-        *r = (runner){alpha, q, (alpha - r->alpha) / step, eta_M};
+        const double mean = (alpha - r->alpha) / step, change = 2 * (mean - r->slope) / (step + r->last);
+        *r = (runner){alpha, q, eta_M, mean, r->rises == 0 ? 0 : change, step, rises};
         *on_line = 1;
     }
     sa_line_vertex_clear(&v);
@@ -139,29 +145,29 @@ static cv_status run(int *on_line, runner *r, const sa_line_store *store, double
     return status;
 }
 
+/* An asymptote is at q = 0. */
+static double smallest_q(const sa_line_store *store)
+{
+    return 1e-4 * sqrt(store->re_floor);
+}
+
 /* Follows a line beyond the floor, log q growing (1) or falling (-1), until Re zeta is negative (*zero: 1) or
  * above the floor again, or q tiny, or the line lost (0). */
 static cv_status follow(int *zero, runner *r, const sa_line_store *store, int direction)
 {
-    const double smallest = 1e-4 * sqrt(store->re_floor), shortest = 1e-6, longest = 0.3;
+    enum { STEPS = 400 };
+    const double smallest = smallest_q(store), shortest = 1e-13, longest = 0.3;
     double step = 0.02;
     cv_status status = CV_OK;
-    r->eta_M = INFINITY;
-    while (status == CV_OK && r->eta_M > 1 / store->re_floor && r->q >= smallest && step > shortest) {
+    for (int i = 0; i < STEPS && status == CV_OK && r->eta_M > 1 / store->re_floor && r->q >= smallest &&
+                    step > shortest;
+         ++i) {
         int on_line;
         status = run(&on_line, r, store, direction * step);
         step = on_line ? fmin(1.5 * step, longest) : step / 4;
     }
     *zero = status == CV_OK && r->eta_M < 0;
     return status;
-}
-
-/* The line of an asymptote may stay above the largest eta_M until Re zeta becomes negative: K(0, 0) is tiny
- * there. */
-static cv_status stays_above(int *above, const sa_line_store *store, const sa_asymptote *a)
-{
-    runner r = {.alpha = mpfr_get_d(a->alpha, MPFR_RNDN), .q = 1e-3 * sqrt(store->re_floor)};
-    return follow(above, &r, store, 1);
 }
 
 static int by_alpha(const void *left, const void *right)
@@ -176,15 +182,14 @@ static int fits(const sa_asymptote *a, const descent *d)
     return a->has_line && (a->rises > 0) == (d->end == 0);
 }
 
-/* Lines do not cross: below the floor they keep their order. Those that turn back there, or are missing,
- * upset it: then only what is near and fits is joined. */
-static cv_status match(sa_lines *lines, const descent *d, size_t count)
+/* Lines do not cross: below the floor, which is at small q, they keep their order, as long as all are there
+ * and none turns back. */
+static void match(sa_lines *lines, const descent *d, size_t count)
 {
-    const double near = 1e-3 + 3 * sqrt(lines->store->re_floor); /* q at the floor */
+    const double lowest_floor = 1e-8, near = 1e-3;
     const sa_asymptote_list *list = &lines->asymptotes;
-    cv_status status = CV_OK;
     size_t next = 0;
-    for (size_t i = 0; i < list->count && status == CV_OK; ++i) {
+    for (size_t i = 0; i < list->count && lines->store->re_floor < lowest_floor; ++i) {
         const sa_asymptote *a = &list->item[i];
         double alpha = mpfr_get_d(a->alpha, MPFR_RNDN);
         if (!a->has_line)
@@ -193,20 +198,40 @@ static cv_status match(sa_lines *lines, const descent *d, size_t count)
         while (found < count && !(fits(a, &d[found]) && fabs(d[found].alpha - alpha) < near * alpha) &&
                d[found].alpha < alpha + near * alpha)
             ++found;
-        if (found == count || !fits(a, &d[found]) || !(fabs(d[found].alpha - alpha) < near * alpha)) {
-            int above;
-            status = stays_above(&above, lines->store, a);
-            lines->store->torn |= !above;
-            if (status == CV_OK && !above)
-                status = sa_lines_doubt(lines, alpha, 0, "an asymptote without a line");
+        if (found == count || !fits(a, &d[found]) || !(fabs(d[found].alpha - alpha) < near * alpha))
             continue;
-        }
         sa_line_end *end = &lines->store->end[d[found].line][d[found].end];
         end->beyond = SA_BEYOND_ASYMPTOTE;
         end->number = i;
         next = found + 1;
     }
-    return status;
+}
+
+static int is_taken(const sa_line_store *store, size_t asymptote)
+{
+    for (size_t i = 0; i < store->line_count; ++i)
+        for (int k = 0; k < 2; ++k)
+            if (!store->line[i].closed && store->end[i][k].beyond == SA_BEYOND_ASYMPTOTE &&
+                store->end[i][k].number == asymptote)
+                return 1;
+    return 0;
+}
+
+/* The asymptote to which the runner has come with a tiny q, from end "at" of a line; list->count: none. */
+static size_t asymptote_at(const sa_lines *lines, int at, const runner *r)
+{
+    const sa_asymptote_list *list = &lines->asymptotes;
+    const descent d = {.end = at};
+    double nearest = 1e-3 * r->alpha * r->q + fabs(r->slope) + 1e-12 * r->alpha;
+    size_t best = list->count;
+    for (size_t i = 0; i < list->count; ++i) {
+        const double distance = fabs(mpfr_get_d(list->item[i].alpha, MPFR_RNDN) - r->alpha);
+        if (fits(&list->item[i], &d) && distance <= nearest && !is_taken(lines->store, i)) {
+            nearest = distance;
+            best = i;
+        }
+    }
+    return best;
 }
 
 /* Distance of the runner, back at the floor, from the beginning (at = 1: the runner has left the end of a
@@ -237,14 +262,17 @@ static size_t comes_back(const sa_line_store *store, int at, const runner *r)
     return best;
 }
 
-/* A line that has sunk to the floor without an asymptote there: it may come to a zero of zeta, or rise again
- * as another line or as itself. */
+/* A line that has sunk to the floor where no asymptote is near: it may come to a zero of zeta, to an
+ * asymptote farther off, or rise again as another line or as itself. */
 static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_sample *last,
                       const sa_line_sample *before)
 {
     int zero;
     sa_line_store *store = lines->store;
-    runner r = {last->alpha, last->q, -last->im_q * last->q / last->im_alpha, 0};
+    runner r = {.alpha = last->alpha,
+                .q = last->q,
+                .eta_M = 1.5 / store->re_floor,
+                .slope = -last->im_q * last->q / last->im_alpha};
     cv_status status = follow(&zero, &r, store, last->q > before->q ? 1 : -1);
     sa_line_end *end = &store->end[number][at];
     if (status != CV_OK)
@@ -253,6 +281,12 @@ static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_samp
         end->beyond = SA_BEYOND_ZERO;
         end->zero_alpha = r.alpha;
         end->zero_q = r.q;
+        return CV_OK;
+    }
+    const size_t asymptote = r.q < smallest_q(store) ? asymptote_at(lines, at, &r) : lines->asymptotes.count;
+    if (asymptote < lines->asymptotes.count) {
+        end->beyond = SA_BEYOND_ASYMPTOTE;
+        end->number = asymptote;
         return CV_OK;
     }
     const size_t other = r.eta_M <= 1 / store->re_floor ? comes_back(store, at, &r) : store->line_count;
@@ -288,6 +322,31 @@ static cv_status settle_all(sa_lines *lines)
     return status;
 }
 
+/* An asymptote to which no line has come: its own may stay below the floor until Re zeta becomes negative,
+ * since K(0, 0) is tiny there. */
+static cv_status check_asymptote(sa_lines *lines, size_t number)
+{
+    const sa_asymptote *a = &lines->asymptotes.item[number];
+    runner r = {.alpha = mpfr_get_d(a->alpha, MPFR_RNDN),
+                .q = 1e-3 * sqrt(lines->store->re_floor),
+                .eta_M = INFINITY};
+    int stays_below;
+    cv_status status = follow(&stays_below, &r, lines->store, 1);
+    if (status != CV_OK || stays_below)
+        return status;
+    lines->store->torn = 1;
+    return sa_lines_doubt(lines, mpfr_get_d(a->alpha, MPFR_RNDN), 0, "an asymptote without a line");
+}
+
+static cv_status check_asymptotes(sa_lines *lines)
+{
+    cv_status status = CV_OK;
+    for (size_t i = 0; i < lines->asymptotes.count && status == CV_OK; ++i)
+        if (lines->asymptotes.item[i].has_line && !is_taken(lines->store, i))
+            status = check_asymptote(lines, i);
+    return status;
+}
+
 cv_status sa_lines_ends(sa_lines *lines)
 {
     sa_line_store *store = lines->store;
@@ -309,9 +368,10 @@ cv_status sa_lines_ends(sa_lines *lines)
         }
     }
     qsort(d, count, sizeof *d, by_alpha);
-    cv_status status = match(lines, d, count);
+    match(lines, d, count);
     free(d);
+    cv_status status = settle_all(lines);
     if (status == CV_OK)
-        status = settle_all(lines);
+        status = check_asymptotes(lines);
     return status == CV_OK ? sa_lines_join(lines) : status;
 }
