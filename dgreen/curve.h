@@ -53,6 +53,9 @@ void dg_curve_clear(dg_curve *c);
 /* Narrows the brackets of those crossings that leave open on which side of x they pass. CV_UNDECIDED: to
  * double precision one of them passes through x. */
 cv_status dg_curve_separate(dg_curve *c, const dg_probe *p, double x, cv_message *why);
+/* The same by brackets beyond double precision (dg_line_at_alpha). CV_UNDECIDED: x
+ * is the crossing to nearly all digits of a double, or it is not found. */
+cv_status dg_curve_separate_exactly(dg_curve *c, const dg_probe *p, double x, cv_message *why);
 
 /* Narrows [a, b], where Im zeta changes sign, and fills the crossing, its slopes included. */
 cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at, const dg_node *a,

@@ -41,6 +41,8 @@ cv_status dg_sampler_curve(dg_sampler *s, double alpha, double x_floor, cv_messa
 cv_status dg_sampler_count(int *roots, dg_sampler *s, double x, cv_message *why)
 {
     const dg_probe probe = dg_sampler_probe(s);
-    const cv_status status = dg_curve_separate(&s->curve, &probe, x, why);
+    cv_status status = dg_curve_separate(&s->curve, &probe, x, why);
+    if (status == CV_UNDECIDED)
+        status = dg_curve_separate_exactly(&s->curve, &probe, x, why);
     return status == CV_OK ? dg_winding(roots, &s->curve, x, why) : status;
 }
