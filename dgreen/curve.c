@@ -76,23 +76,25 @@ static double room_around(const dg_station *at, size_t i)
 }
 
 /* Marks branch points at which zeta stays far from the positive real axis: the singular part, of which the
- * peak is known, is too small. What was sampled for that becomes nodes. */
+ * peak is known, is too small. What was sampled for that becomes nodes; where that fails the point is not
+ * quiet. */
 static cv_status mark_quiet(dg_curve *c, const dg_probe *p, cv_message *why)
 {
+    cv_message unread;
     cv_status status = CV_OK;
-    for (size_t i = 0; i < c->at.count && status == CV_OK; i++) {
+    for (size_t i = 0; i < c->at.count && status != CV_FAILED; i++) {
         dg_branch_point *point = &c->at.points[i];
         const double room = room_around(&c->at, i);
         if (point->soft || !(point->width < NARROW * room && point->peak < LOW))
             continue;
         const size_t first = c->node_count;
-        status = dg_curve_add(c, p, point->q - room, why);
+        status = dg_curve_add(c, p, point->q - room, &unread);
         if (status == CV_OK)
-            status = dg_curve_add(c, p, point->q + room, why);
+            status = dg_curve_add(c, p, point->q + room, &unread);
         point->quiet =
             status == CV_OK && fmax(c->nodes[first].re, c->nodes[first + 1].re) < -QUIET * point->peak;
     }
-    return status;
+    return status == CV_FAILED ? cv_fail(why, CV_FAILED, "%s", unread.text) : CV_OK;
 }
 
 /* The step from q to the next node: a part of the distance to every branch point and to 0, the same on the
