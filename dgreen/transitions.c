@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dgreen/limit_transitions.h"
 #include "dgreen/transitions_check.h"
 #include "dgreen/transitions_list.h"
 #include "dgreen/transitions_sweep.h"
@@ -158,7 +159,8 @@ cv_status dg_find_transitions(dg_transition_list *lists, dg_effort *effort, cons
     memset(lists, 0, mass_count * sizeof *lists);
     *f.effort = (dg_effort){0};
     if (cv_params_undamped(params))
-        return cv_fail(why, CV_BAD_INPUT, "transitions need damping: all damping ratios are zero");
+        return dg_find_limit_transitions(lists, f.effort, params, alpha_min, alpha_max, mass_count,
+                                         mass_ratios, digits, first_look, why);
     cv_status status = finder_init(&f, params);
     for (int i = 0; i <= DG_MORE_LOOKS && status == CV_OK && !all_decided(&f); i++) {
         f.probe.look = first_look + i;

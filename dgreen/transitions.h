@@ -52,8 +52,9 @@ typedef struct {
  * transitions) is dropped and its mass ratio searched again, up to DG_MORE_LOOKS looks closer; only then it
  * is undecided.
  *
- * What cannot be decided is said in the lists; the status returned is CV_OK then, too. CV_BAD_INPUT: all
- * dampings are zero. CV_FAILED: out of memory. Unless CV_OK is returned no list holds anything. Reentrant. */
+ * What cannot be decided is said in the lists; the status returned is CV_OK then, too. Without
+ * damping: dgreen/limit_transitions.h. CV_FAILED: out of memory. Unless CV_OK is returned no list holds
+ * anything. Reentrant. */
 cv_status dg_find_transitions(dg_transition_list *lists, dg_effort *effort, const cv_params *params,
                               const cv_number *alpha_min, const cv_number *alpha_max, size_t mass_count,
                               const cv_number *mass_ratios, int digits, int first_look, cv_message *why);
