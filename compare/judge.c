@@ -65,9 +65,11 @@ static double log10_ratio(mpfr_srcptr x, mpfr_srcptr y)
 
 static int usable(const cmp_transition *t)
 {
-    return mpfr_number_p(t->alpha) && mpfr_number_p(t->q) && mpfr_sgn(t->alpha) > 0 && mpfr_sgn(t->q) > 0 &&
-           mpfr_number_p(t->alpha_error) && mpfr_number_p(t->q_error) && mpfr_sgn(t->alpha_error) > 0 &&
-           mpfr_sgn(t->q_error) > 0;
+    const int q = t->at_resonance ? mpfr_zero_p(t->q) != 0
+                                  : mpfr_number_p(t->q) && mpfr_sgn(t->q) > 0 && mpfr_number_p(t->q_error) &&
+                                        mpfr_sgn(t->q_error) > 0;
+    return mpfr_number_p(t->alpha) && mpfr_sgn(t->alpha) > 0 && mpfr_number_p(t->alpha_error) &&
+           mpfr_sgn(t->alpha_error) > 0 && q;
 }
 
 /* One list by itself: what it says about itself, and whether it can be the list of one mass. */
@@ -88,7 +90,7 @@ static void judge_list(cmp_verdict *v, const cmp_list *list, const char *name, i
             cmp_verdict_incomplete(v, CMP_UNDECIDED, "%s is undecided about alpha = %.15g, q = %.15g", name,
                                    alpha, q);
         if (!(log10_ratio(t->alpha_error, t->alpha) <= -digits) ||
-            !(log10_ratio(t->q_error, t->q) <= -digits))
+            (!t->at_resonance && !(log10_ratio(t->q_error, t->q) <= -digits)))
             cmp_verdict_worsen(v, CMP_UNDECIDED, "the bounds of %s at alpha = %.15g do not give %d digits",
                                name, alpha, digits);
         const int impossible =
@@ -140,8 +142,9 @@ static void judge_pair(cmp_verdict *v, const cmp_transition *a, const cmp_transi
 {
     cmp_judge_coordinate(v, "alpha", (const mpfr_srcptr[]){a->alpha, b->alpha},
                          (const mpfr_srcptr[]){a->alpha_error, b->alpha_error}, digits);
-    cmp_judge_coordinate(v, "q", (const mpfr_srcptr[]){a->q, b->q},
-                         (const mpfr_srcptr[]){a->q_error, b->q_error}, digits);
+    if (!a->at_resonance && !b->at_resonance)
+        cmp_judge_coordinate(v, "q", (const mpfr_srcptr[]){a->q, b->q},
+                             (const mpfr_srcptr[]){a->q_error, b->q_error}, digits);
     if (!same_roots(a, b, partial))
         cmp_verdict_worsen(v, CMP_DISAGREE, "alpha = %.15g: unstable roots %d to %d by %s, %d to %d by %s",
                            mpfr_get_d(a->alpha, MPFR_RNDN), a->below, a->above, names[0], b->below, b->above,

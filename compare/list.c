@@ -54,6 +54,7 @@ cv_status cmp_list_append(cmp_list *list, mpfr_srcptr alpha, mpfr_srcptr q, doub
     t->below = below;
     t->above = above;
     t->decided = decided;
+    t->at_resonance = 0;
     return CV_OK;
 }
 

@@ -17,6 +17,8 @@ typedef struct {
     mpfr_t alpha_error, q_error; /* absolute bounds as the solver states them, > 0 */
     int below, above;            /* unstable roots just below and just above alpha */
     cv_status decided;           /* CV_OK, or CV_UNDECIDED: the solver does not vouch for it */
+    int at_resonance; /* 1: of a track without damping, at a resonance velocity: q = 0 exactly, and there
+                         is no zeta to put it back into; else 0 */
 } cmp_transition;
 
 /* All transitions of one mass ratio that a solver claims, alpha ascending. */

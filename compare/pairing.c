@@ -27,7 +27,10 @@ static int direction(const cmp_transition *t)
 
 static double distance(const cmp_transition *a, const cmp_transition *b)
 {
-    const double in_alpha = relative_distance(a->alpha, b->alpha), in_q = relative_distance(a->q, b->q);
+    const double in_alpha = relative_distance(a->alpha, b->alpha),
+                 in_q = a->at_resonance ? 0 : relative_distance(a->q, b->q);
+    if (a->at_resonance != b->at_resonance)
+        return HUGE_VAL;
     if (direction(a) != direction(b) || !(in_alpha <= PAIR_DISTANCE) || !(in_q <= PAIR_DISTANCE))
         return HUGE_VAL;
     return fmax(in_alpha, in_q);

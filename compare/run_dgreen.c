@@ -44,7 +44,7 @@ static cv_status open_handle(void **out, const cv_params *params, const cv_numbe
     return status;
 }
 
-static cv_status copy_list(cmp_list *to, const dg_transition_list *from, cv_message *why)
+static cv_status copy_list(cmp_list *to, const dg_transition_list *from, int undamped, cv_message *why)
 {
     cv_status status = CV_OK;
     to->status = from->status;
@@ -53,6 +53,8 @@ static cv_status copy_list(cmp_list *to, const dg_transition_list *from, cv_mess
         const dg_transition *t = &from->items[i];
         status = cmp_list_append(to, t->alpha, t->frequency, t->alpha_error, t->frequency_error,
                                  t->count_below, t->count_above, t->decided, why);
+        if (status == CV_OK && undamped && mpfr_zero_p(t->frequency))
+            to->items[to->count - 1].at_resonance = 1;
     }
     return status;
 }
@@ -68,7 +70,7 @@ static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t 
     cv_status status = dg_find_transitions(found, &cost, &h->params, &h->alpha_min, &h->alpha_max, mass_count,
                                            mass_ratios, digits, level, why);
     for (size_t i = 0; status == CV_OK && i < mass_count; i++)
-        status = copy_list(&lists[i], &found[i], why);
+        status = copy_list(&lists[i], &found[i], cv_params_undamped(&h->params), why);
     for (size_t i = 0; i < mass_count; i++)
         dg_transition_list_clear(&found[i]);
     free(found);

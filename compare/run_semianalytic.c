@@ -54,7 +54,7 @@ static cv_status need_boundary(handle *h, cv_message *why)
     return sa_boundary_new(&h->boundary, &h->params, &h->alpha_min, &h->alpha_max, why);
 }
 
-static cv_status copy_list(cmp_list *to, const sa_transitions *from, cv_message *why)
+static cv_status copy_list(cmp_list *to, const sa_transitions *from, int undamped, cv_message *why)
 {
     cv_status status = CV_OK;
     to->status = from->decided;
@@ -63,6 +63,8 @@ static cv_status copy_list(cmp_list *to, const sa_transitions *from, cv_message 
         const sa_transition *t = &from->items[i];
         status = cmp_list_append(to, t->alpha, t->q, t->alpha_error, t->q_error, t->below, t->above,
                                  t->decided, why);
+        if (status == CV_OK && undamped && mpfr_zero_p(t->q))
+            to->items[to->count - 1].at_resonance = 1;
     }
     return status;
 }
@@ -78,7 +80,7 @@ static cv_status find(void *opaque, cmp_list *lists, cmp_effort *effort, size_t 
     if (status == CV_OK)
         status = sa_boundary_transitions(found, h->boundary, mass_count, mass_ratios, digits, level, why);
     for (size_t i = 0; status == CV_OK && i < mass_count; i++)
-        status = copy_list(&lists[i], &found[i], why);
+        status = copy_list(&lists[i], &found[i], cv_params_undamped(&h->params), why);
     if (h->boundary != NULL) {
         const sa_counts cost = sa_boundary_counts(h->boundary);
         *effort =

@@ -1,0 +1,157 @@
+/* dgreen's transitions without damping: those of semianalytic/, which traces Im zeta = 0 and knows what
+ * happens at special velocities by formula, are the same; damped ones tend to them; resonance velocities of
+ * the moving force are among them. */
+#include <check.h>
+#include <math.h>
+
+#include "dgreen/count.h"
+#include "dgreen/transitions.h"
+#include "semianalytic/resonances.h"
+#include "semianalytic/transitions.h"
+#include "tests/semianalytic_points.h"
+
+enum { MASSES = 2, DIGITS = 12 };
+static const char *const mass_text[MASSES] = {"3", "200"}, *const range_text[2] = {"0.1", "1.6"};
+
+typedef struct {
+    cv_params params;
+    cv_number range[2], mass_ratio[MASSES];
+    dg_transition_list list[MASSES];
+} search;
+
+static void search_start(search *s, const char *const track[6], const char *damping)
+{
+    cv_message why;
+    cv_params_init(&s->params);
+    set_params(&s->params, track, damping);
+    for (int i = 0; i < 2; i++) {
+        cv_number_init(&s->range[i]);
+        set_text(&s->range[i], range_text[i]);
+    }
+    for (int i = 0; i < MASSES; i++) {
+        cv_number_init(&s->mass_ratio[i]);
+        set_text(&s->mass_ratio[i], mass_text[i]);
+    }
+    ck_assert_int_eq(dg_find_transitions(s->list, NULL, &s->params, &s->range[0], &s->range[1], MASSES,
+                                         s->mass_ratio, DIGITS, 0, &why),
+                     CV_OK);
+    for (int m = 0; m < MASSES; m++)
+        ck_assert_msg(s->list[m].status == CV_OK, "%s", s->list[m].why.text);
+}
+
+static void search_end(search *s)
+{
+    for (int m = 0; m < MASSES; m++) {
+        dg_transition_list_clear(&s->list[m]);
+        cv_number_clear(&s->mass_ratio[m]);
+    }
+    cv_number_clear(&s->range[0]);
+    cv_number_clear(&s->range[1]);
+    cv_params_clear(&s->params);
+}
+
+static int differ(mpfr_srcptr a, mpfr_srcptr b, double bound)
+{
+    mpfr_t gap;
+    mpfr_init2(gap, 64);
+    mpfr_sub(gap, a, b, MPFR_RNDA);
+    int result = !(fabs(mpfr_get_d(gap, MPFR_RNDA)) <= bound);
+    mpfr_clear(gap);
+    return result;
+}
+
+static void compare(const dg_transition_list *found, const sa_transitions *expected)
+{
+    ck_assert_msg(expected->decided == CV_OK, "%s", expected->reason.text);
+    ck_assert_uint_eq(found->count, expected->count);
+    ck_assert_int_eq(found->count_at_min, expected->roots_at_start);
+    for (size_t i = 0; i < found->count; i++) {
+        const dg_transition *t = &found->items[i];
+        const sa_transition *e = &expected->items[i];
+        ck_assert(!differ(t->alpha, e->alpha, t->alpha_error + e->alpha_error));
+        ck_assert(!differ(t->frequency, e->q, t->frequency_error + e->q_error));
+        ck_assert(t->count_below == e->below && t->count_above == e->above);
+    }
+}
+
+/* Zhai's track of data/track.ini, rounded, after those of the paper */
+static const char *const zhai[6] = {"3.7975", "16.0793", "0.838748", "1.777426", "0.696109", "0"};
+
+START_TEST(those_of_semianalytic)
+{
+    search s;
+    sa_boundary *boundary;
+    sa_transitions expected[MASSES];
+    search_start(&s, _i < 4 ? table1[_i] : zhai, "0");
+    ck_assert_int_eq(sa_boundary_new(&boundary, &s.params, &s.range[0], &s.range[1], NULL), CV_OK);
+    ck_assert_int_eq(sa_boundary_transitions(expected, boundary, MASSES, s.mass_ratio, DIGITS, 0, NULL),
+                     CV_OK);
+    for (int m = 0; m < MASSES; m++) {
+        compare(&s.list[m], &expected[m]);
+        sa_transitions_clear(&expected[m]);
+    }
+    sa_boundary_free(boundary);
+    search_end(&s);
+}
+END_TEST
+
+static double nearest(const dg_transition_list *list, double alpha)
+{
+    double distance = INFINITY;
+    for (size_t i = 0; i < list->count; i++)
+        distance = fmin(distance, fabs(mpfr_get_d(list->items[i].alpha, MPFR_RNDN) - alpha));
+    return distance;
+}
+
+/* Case 2, where all transitions are between special velocities: in first order of the damping. */
+START_TEST(damped_ones_tend_to_them)
+{
+    search limit, damped[2];
+    search_start(&limit, table1[1], "0");
+    search_start(&damped[0], table1[1], "1e-5");
+    search_start(&damped[1], table1[1], "1e-6");
+    for (int m = 0; m < MASSES; m++) {
+        ck_assert_uint_eq(limit.list[m].count, damped[1].list[m].count);
+        for (size_t i = 0; i < limit.list[m].count; i++) {
+            double alpha = mpfr_get_d(limit.list[m].items[i].alpha, MPFR_RNDN);
+            double far = nearest(&damped[0].list[m], alpha), near = nearest(&damped[1].list[m], alpha);
+            ck_assert_msg(far < 1e-3 && near > 0.09 * far && near < 0.11 * far, "alpha %.15g: %.3e %.3e",
+                          alpha, far, near);
+        }
+    }
+    search_end(&limit);
+    search_end(&damped[0]);
+    search_end(&damped[1]);
+}
+END_TEST
+
+/* Case 4: for a small mass the stability limit is the first resonance velocity, with q = 0. */
+START_TEST(a_resonance_velocity_is_the_stability_limit)
+{
+    search s;
+    sa_resonance_list found;
+    search_start(&s, table1[3], "0");
+    ck_assert_int_eq(sa_resonances(&found, &s.params, 20, NULL), CV_OK);
+    const dg_transition *first = &s.list[0].items[0];
+    ck_assert(!differ(first->alpha, found.item[0].alpha, first->alpha_error));
+    ck_assert(mpfr_zero_p(first->frequency));
+    ck_assert(first->count_below == 0 && first->count_above == 2);
+    sa_resonances_clear(&found);
+    search_end(&s);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("dgreen transitions without damping");
+    TCase *tests = tcase_create("limit");
+    tcase_add_loop_test(tests, those_of_semianalytic, 0, 5);
+    tcase_add_test(tests, damped_ones_tend_to_them);
+    tcase_add_test(tests, a_resonance_velocity_is_the_stability_limit);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
