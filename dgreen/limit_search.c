@@ -10,8 +10,15 @@
 /* Crossings are listed down to this part of 1/eta_M; distance from a special velocity, in parts of it;
  * velocities per decade of that distance; parts of an interval's end distance below which what differs is
  * left. */
-static const double FLOOR = 0.3, BESIDE = 1e-9, NARROW = 1e-3;
-enum { PER_DECADE = 1, EVEN = 12, HUNT = 60 };
+static const double FLOOR = 0.3, BESIDE = 1e-9, RATIO = 30, NARROW = 1e-3;
+enum { EVEN = 10, HUNT = 60 };
+
+struct dg_limit_look {
+    double alpha;
+    size_t count;
+    dg_crossing *crossings; /* above the lowest floor; owned */
+    int *roots;             /* by mass; -1: not certain there. NULL: the curve cannot be had. Owned */
+};
 
 /* The curve at one velocity, for one mass ratio. */
 typedef struct {
@@ -51,27 +58,81 @@ static void doubt(hunt *h, const char *reason, double a, double b)
             cv_fail(&h->mass->why, CV_UNDECIDED, "%s between alpha = %.17g and %.17g", reason, a, b);
 }
 
+static cv_status count_all(dg_limit_look *l, hunt *h)
+{
+    const dg_limit_search *s = h->search;
+    cv_message ignored;
+    l->roots = calloc(s->mass_count, sizeof *l->roots);
+    if (l->roots == NULL)
+        return cv_fail(s->why, CV_FAILED, "out of memory");
+    for (size_t k = 0; k < s->mass_count; k++) {
+        cv_status status = dg_curve_separate(&h->curve, &s->probe, s->masses[k].x, &ignored);
+        if (status == CV_OK)
+            status = dg_winding(&l->roots[k], &h->curve, s->masses[k].x, &ignored);
+        if (status == CV_FAILED)
+            return cv_fail(s->why, CV_FAILED, "out of memory");
+        if (status != CV_OK)
+            l->roots[k] = -1;
+    }
+    l->count = h->curve.crossing_count;
+    l->crossings = calloc(l->count + 1, sizeof *l->crossings);
+    if (l->crossings == NULL)
+        return cv_fail(s->why, CV_FAILED, "out of memory");
+    for (size_t i = 0; i < l->count; i++)
+        l->crossings[i] = h->curve.crossings[i];
+    return CV_OK;
+}
+
+/* One curve serves all masses: it is sampled once at each velocity. */
+static cv_status look_at(const dg_limit_look **out, hunt *h, double alpha)
+{
+    dg_limit_search *s = h->search;
+    cv_message ignored;
+    double floor = INFINITY;
+    for (size_t i = 0; i < s->look_count; i++)
+        if (s->looks[i].alpha == alpha) {
+            *out = &s->looks[i];
+            return CV_OK;
+        }
+    if (s->look_count == s->look_room) {
+        const size_t room = 2 * s->look_room + 256;
+        dg_limit_look *grown = realloc(s->looks, room * sizeof *grown);
+        if (grown == NULL)
+            return cv_fail(s->why, CV_FAILED, "out of memory");
+        s->looks = grown;
+        s->look_room = room;
+    }
+    dg_limit_look *l = &s->looks[s->look_count++];
+    *l = (dg_limit_look){.alpha = alpha};
+    *out = l;
+    for (size_t k = 0; k < s->mass_count; k++)
+        floor = fmin(floor, FLOOR * s->masses[k].x);
+    cv_status status = dg_curve_at(&h->curve, &s->probe, alpha, floor, &ignored);
+    if (status == CV_FAILED)
+        return cv_fail(s->why, CV_FAILED, "out of memory");
+    return status == CV_OK ? count_all(l, h) : CV_OK;
+}
+
 /* CV_UNDECIDED: the curve or N cannot be had at this velocity; c is then empty. */
 static cv_status look(column *c, hunt *h, double alpha)
 {
-    cv_message ignored;
-    const dg_probe *probe = &h->search->probe;
+    const dg_limit_look *l;
+    const size_t mass = (size_t)(h->mass - h->search->masses);
     *c = (column){.alpha = alpha};
-    cv_status status = dg_curve_at(&h->curve, probe, alpha, FLOOR * h->mass->x, &ignored);
-    if (status == CV_OK)
-        status = dg_curve_separate(&h->curve, probe, h->mass->x, &ignored);
-    if (status == CV_OK)
-        status = dg_winding(&c->roots, &h->curve, h->mass->x, &ignored);
+    cv_status status = look_at(&l, h, alpha);
     if (status != CV_OK)
         return status;
-    c->crossings = calloc(h->curve.crossing_count + 1, sizeof *c->crossings);
+    if (l->roots == NULL || l->roots[mass] < 0)
+        return CV_UNDECIDED;
+    c->roots = l->roots[mass];
+    c->crossings = calloc(l->count + 1, sizeof *c->crossings);
     if (c->crossings == NULL)
         return cv_fail(h->search->why, CV_FAILED, "out of memory");
-    for (size_t i = 0; i < h->curve.crossing_count; i++) {
-        if (isinf(h->curve.crossings[i].x))
+    for (size_t i = 0; i < l->count; i++) {
+        if (isinf(l->crossings[i].x))
             c->infinite++;
-        else
-            c->crossings[c->count++] = h->curve.crossings[i];
+        else if (l->crossings[i].x > FLOOR * h->mass->x)
+            c->crossings[c->count++] = l->crossings[i];
     }
     return CV_OK;
 }
@@ -206,7 +267,7 @@ static int ascending(const void *left, const void *right)
 /* Velocities from low to high, graded towards both; room for them is allocated. */
 static double *velocities(size_t *count, const hunt *h, double first)
 {
-    const double width = h->high - h->low, ratio = pow(10, 1.0 / ldexp(PER_DECADE, h->search->look));
+    const double width = h->high - h->low, ratio = pow(RATIO, 1 / ldexp(1, h->search->look));
     const size_t most = 2 * (size_t)(log(width / first) / log(ratio) + 2) + (EVEN << h->search->look) + 2;
     double *at = calloc(most, sizeof *at);
     size_t n = 0;
@@ -294,5 +355,11 @@ cv_status dg_limit_search_run(dg_limit_search *s, double alpha_min, double alpha
     cv_status status = CV_OK;
     for (size_t k = 0; k < s->mass_count && status == CV_OK; k++)
         status = search_mass(s, &s->masses[k], alpha_min, alpha_max);
+    for (size_t i = 0; i < s->look_count; i++) {
+        free(s->looks[i].crossings);
+        free(s->looks[i].roots);
+    }
+    free(s->looks);
+    s->looks = NULL;
     return status;
 }

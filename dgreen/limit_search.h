@@ -20,11 +20,16 @@ typedef struct {
     cv_message why;
 } dg_limit_mass;
 
+/* What is kept of the curve at one velocity, for all masses. */
+typedef struct dg_limit_look dg_limit_look;
+
 typedef struct {
     dg_probe probe;
     size_t mass_count;
     dg_limit_mass *masses; /* x set, the rest zero */
     int look;              /* as in dg_find_transitions */
+    size_t look_count, look_room;
+    dg_limit_look *looks; /* freed by dg_limit_search_run */
     cv_message *why;
 } dg_limit_search;
 

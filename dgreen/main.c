@@ -21,6 +21,7 @@ static const char help[] =
     "  critvel-dgreen count FILE --alpha 0.3\n"
     "      number of unstable roots for every mass ratio of the case, by the winding of the curve z(iq)\n"
     "  critvel-dgreen transitions FILE --case 3 --damping 1e-10 --mass-ratio 100\n"
+    "  critvel-dgreen transitions FILE --case 3 --damping 0 --digits 12\n"
     "      all velocities of the range where that number changes, with q; default: every mass ratio\n"
     "  critvel-dgreen roots FILE --alpha 0.3 --mass-ratio 100\n"
     "      roots qbar of z = 1: growth rates and frequencies of all unstable ones and the nearest stable "
