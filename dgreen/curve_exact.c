@@ -40,18 +40,34 @@ static cv_status put_bracket(dg_curve *c, dg_crossing *crossing, mpfr_srcptr q, 
     return status == CV_OK ? put_node(c, &high, why) : status;
 }
 
-/* The crossing's own x, to more digits than x has. */
+/* Narrows the bracket to a few doubles, as far as signs are certain. */
+static void halve(const dg_curve *c, const dg_probe *p, dg_crossing *crossing)
+{
+    dg_node node;
+    while (crossing->q_high - crossing->q_low > 8 * DBL_EPSILON * crossing->q_high &&
+           dg_probe_at(&node, p, c->at.alpha, (crossing->q_low + crossing->q_high) / 2) == CV_OK)
+        *((node.im > 0) == (crossing->direction > 0) ? &crossing->q_low : &crossing->q_high) = node.q;
+}
+
+/* The crossing's own x, to more digits than x has. Its bracket holds no other crossing, but it may be right
+ * beside. */
 static cv_status separate(dg_curve *c, const dg_probe *p, dg_crossing *crossing, double x, cv_message *why)
 {
     enum { DIGITS = 20 };
-    const double reach = fmax(fmax(crossing->q_high - crossing->q, crossing->q - crossing->q_low),
-                              4 * DBL_EPSILON * crossing->q);
+    static const double ROOM = 1.6; /* the search ends short of its reach */
+    halve(c, p, crossing);
+    const double reach = (crossing->q_high - crossing->q_low) / 2;
     dg_line_point point;
     mpfr_t alpha, q;
     dg_line_point_init(&point);
     mpfr_init_set_d(alpha, c->at.alpha, MPFR_RNDN);
-    mpfr_init_set_d(q, crossing->q, MPFR_RNDN);
-    cv_status status = dg_line_at_alpha(&point, p->track, alpha, q, reach, DIGITS, why);
+    mpfr_init2(q, 64);
+    mpfr_set_d(q, crossing->q_low, MPFR_RNDN);
+    mpfr_add_d(q, q, reach, MPFR_RNDN);
+    cv_status status = dg_line_at_alpha(&point, p->track, alpha, q, ROOM * reach, DIGITS, why);
+    if (status == CV_OK && !(mpfr_cmp_d(point.frequency, crossing->q_low) >= 0 &&
+                             mpfr_cmp_d(point.frequency, crossing->q_high) <= 0))
+        status = CV_UNDECIDED;
     if (status == CV_OK) {
         const double mass = mpfr_get_d(point.mass_ratio, MPFR_RNDN), at = 1 / mass;
         const double error = at * (point.mass_ratio_error / mass + 4 * DBL_EPSILON);
