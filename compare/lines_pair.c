@@ -11,6 +11,8 @@ static const double PAIR_DISTANCE = 0.02;
 static const double WEIGHT_OF_Q = 0.05;
 /* Between branches that are near one another everywhere those with the same ends belong together. */
 static const double OTHER_ENDS = 5e-4;
+/* Polylines may be off their line by so much. */
+static const double CHORD_ERROR = 1e-3;
 
 /* A vertex in the plot; coordinates in parts of the range, and log q with its weight. */
 typedef struct {
@@ -42,10 +44,17 @@ static int polyline_init(polyline *out, const cmp_branch *b, const cmp_branches 
     return out->at != NULL;
 }
 
-/* Whether the step a -> b does not run against the step c -> d, in the plot. */
+static double step_length(const place *a, const place *b)
+{
+    return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]);
+}
+
+/* Whether the step a -> b does not run against the step c -> d, in the plot. A step shorter than polylines
+ * may be off has no direction to speak of. */
 static int along(const place *a, const place *b, const place *c, const place *d)
 {
-    return (b->x[0] - a->x[0]) * (d->x[0] - c->x[0]) + (b->x[1] - a->x[1]) * (d->x[1] - c->x[1]) >= 0;
+    return (b->x[0] - a->x[0]) * (d->x[0] - c->x[0]) + (b->x[1] - a->x[1]) * (d->x[1] - c->x[1]) >= 0 ||
+           step_length(a, b) < CHORD_ERROR;
 }
 
 /* Whether the step c -> d runs with the polyline before or after its vertex i. */
