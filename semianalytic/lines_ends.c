@@ -148,25 +148,32 @@ static cv_status run(int *on_line, runner *r, const sa_line_store *store, double
 /* An asymptote is at q = 0. */
 static double smallest_q(const sa_line_store *store)
 {
-    return 1e-4 * sqrt(store->re_floor);
+    return 1e-3 * sqrt(store->re_floor);
 }
 
 /* Follows a line beyond the floor, log q growing (1) or falling (-1), until Re zeta is negative (*zero: 1) or
  * above the floor again, or q tiny, or the line lost (0). */
 static cv_status follow(int *zero, runner *r, const sa_line_store *store, int direction)
 {
-    enum { STEPS = 400 };
+    enum { STEPS = 600 };
     const double smallest = smallest_q(store), shortest = 1e-13, longest = 0.3;
     double step = 0.02;
+    runner before = *r;
     cv_status status = CV_OK;
-    for (int i = 0; i < STEPS && status == CV_OK && r->eta_M > 1 / store->re_floor && r->q >= smallest &&
-                    step > shortest;
+    for (int i = 0; i < STEPS && status == CV_OK && r->eta_M > 1 / store->re_floor &&
+                    (direction > 0 || r->q >= smallest) && step > shortest;
          ++i) {
         int on_line;
+        before = *r;
         status = run(&on_line, r, store, direction * step);
         step = on_line ? fmin(1.5 * step, longest) : step / 4;
     }
     *zero = status == CV_OK && r->eta_M < 0;
+    if (*zero) { /* Re zeta = 1 / eta_M is linear there */
+        const double part = r->eta_M / (r->eta_M - before.eta_M);
+        r->alpha = before.alpha + part * (r->alpha - before.alpha);
+        r->q = before.q + part * (r->q - before.q);
+    }
     return status;
 }
 
@@ -278,9 +285,11 @@ static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_samp
     if (status != CV_OK)
         return status;
     if (zero) {
+        const sa_line_sample there = {.alpha = r.alpha, .q = r.q};
         end->beyond = SA_BEYOND_ZERO;
         end->zero_alpha = r.alpha;
         end->zero_q = r.q;
+        (void)near_zero(end, store, &there);
         return CV_OK;
     }
     const size_t asymptote = r.q < smallest_q(store) ? asymptote_at(lines, at, &r) : lines->asymptotes.count;
@@ -328,7 +337,7 @@ static cv_status check_asymptote(sa_lines *lines, size_t number)
 {
     const sa_asymptote *a = &lines->asymptotes.item[number];
     runner r = {.alpha = mpfr_get_d(a->alpha, MPFR_RNDN),
-                .q = 1e-3 * sqrt(lines->store->re_floor),
+                .q = fmin(3e-8, 2 * smallest_q(lines->store)),
                 .eta_M = INFINITY};
     int stays_below;
     cv_status status = follow(&stays_below, &r, lines->store, 1);
