@@ -86,26 +86,47 @@ void sa_transitions_explain_limit(sa_transitions *list)
         list->reason.text[used] = '\0';
 }
 
+/* Counts at alpha[0] and alpha[1] on both sides of c; a transition where they differ. */
+static cv_status jump(sa_transitions *list, const sa_track *track, const sa_map *map, sa_field *field,
+                      const sa_column *c, const double alpha[2], double level, int digits)
+{
+    const double near = 1e-3; /* much more than Re zeta varies along a line in a closed column */
+    side below = {0, INFINITY}, above = {0, INFINITY};
+    cv_status status = count_at(&below, map, field, alpha[0], level);
+    if (status == CV_OK)
+        status = count_at(&above, map, field, alpha[1], level);
+    if (status == CV_UNDECIDED)
+        sa_transitions_doubt(list, "unstable roots could not be counted beside alpha = %.15g", alpha[0]);
+    else if (status == CV_OK && above.roots != below.roots)
+        status = append(list, track, map, c, above.roots - below.roots,
+                        fmin(below.nearest, above.nearest) > near, digits);
+    return status == CV_UNDECIDED ? CV_OK : status;
+}
+
+/* The shear speed, where an arc ends in q = 0, is in no closed column: zeta is smooth there. */
+static cv_status shear_jump(sa_transitions *list, const sa_track *track, const sa_map *map, sa_field *field,
+                            int number, double level, int digits)
+{
+    const double beside = 1e-9, speed = map->curves.special[number].alpha;
+    const double alpha[2] = {speed * (1 - beside), speed * (1 + beside)};
+    const sa_column c = {.alpha_low = alpha[0], .alpha_high = alpha[1], .special = number};
+    if (!(alpha[0] > map->curves.alpha_min && alpha[1] < map->curves.alpha_max))
+        return CV_OK;
+    return jump(list, track, map, field, &c, alpha, level, digits);
+}
+
 cv_status sa_transitions_jumps(sa_transitions *list, const sa_track *track, const sa_map *map,
                                sa_field *field, double level, int digits)
 {
-    const double near = 1e-3; /* much more than Re zeta varies along a line in a closed column */
-    for (size_t i = 1; i + 1 < map->count; ++i) {
+    cv_status status = CV_OK;
+    for (size_t i = 1; i + 1 < map->count && status == CV_OK; ++i) {
         const sa_column *c = &map->column[i];
-        side below = {0, INFINITY}, above = {0, INFINITY};
-        if (!c->closed)
-            continue;
-        cv_status status = count_at(&below, map, field, c->alpha_low - c[-1].length_high / 10, level);
-        if (status == CV_OK)
-            status = count_at(&above, map, field, c->alpha_high + c[1].length_low / 10, level);
-        if (status == CV_UNDECIDED)
-            sa_transitions_doubt(list, "unstable roots could not be counted beside alpha = %.15g",
-                                 c->alpha_low);
-        else if (status == CV_OK && above.roots != below.roots)
-            status = append(list, track, map, c, above.roots - below.roots,
-                            fmin(below.nearest, above.nearest) > near, digits);
-        if (status != CV_OK && status != CV_UNDECIDED)
-            return status;
+        const double alpha[2] = {c->alpha_low - c[-1].length_high / 10, c->alpha_high + c[1].length_low / 10};
+        if (c->closed)
+            status = jump(list, track, map, field, c, alpha, level, digits);
     }
-    return CV_OK;
+    for (size_t i = 0; i < map->curves.special_count && status == CV_OK; ++i)
+        if (map->curves.special[i].kind == SA_SPECIAL_SHEAR)
+            status = shear_jump(list, track, map, field, (int)i, level, digits);
+    return status;
 }
