@@ -160,6 +160,32 @@ START_TEST(jump_at_a_resonance_velocity)
 }
 END_TEST
 
+/* Towards the shear speed of the ballast, alpha^2 mu_b = eta_s, a branch curve comes to q = 0 with ever
+ * shorter waves; on this track two roots end with it, for every mass. */
+START_TEST(jump_at_the_shear_speed)
+{
+    static const char *const track[6] = {"5.39309", "44.5051", "0.189418", "0.440042", "16.2703", "0"};
+    const double speed = sqrt(16.2703 / 44.5051);
+    cv_params p;
+    search s;
+    cv_params_init(&p);
+    set_params(&p, track, "0");
+    search_start(&s, &p);
+    for (int m = 0; m < MASSES; m++) {
+        const sa_transitions *list = &s.list[m];
+        size_t i = 0;
+        ck_assert_msg(list->decided == CV_OK, "%s", list->reason.text);
+        while (i < list->count && !(fabs(mpfr_get_d(list->items[i].alpha, MPFR_RNDN) - speed) < 1e-12))
+            i++;
+        ck_assert_uint_lt(i, list->count);
+        ck_assert_int_eq(list->items[i].above, list->items[i].below - 2);
+        ck_assert(mpfr_zero_p(list->items[i].q));
+    }
+    search_end(&s);
+    cv_params_clear(&p);
+}
+END_TEST
+
 /* A lightly damped track whose stability limit tends to a resonance velocity does so in order 2/11
  * (convergence.h). The track is that of data/track.ini, Zhai 2004, rounded. */
 START_TEST(order_at_a_resonance_velocity)
@@ -250,6 +276,7 @@ int main(void)
     tcase_add_test(tests, counts_are_those_of_the_winding);
     tcase_add_test(tests, damped_transitions_tend_to_them);
     tcase_add_test(tests, jump_at_a_resonance_velocity);
+    tcase_add_test(tests, jump_at_the_shear_speed);
     tcase_add_test(tests, order_at_a_resonance_velocity);
     tcase_add_test(tests, damped_lines_tend_to_those_without_damping);
     suite_add_tcase(suite, tests);
