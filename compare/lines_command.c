@@ -15,7 +15,7 @@ static const char HELP[] =
     "loses a pair of unstable roots) by both methods, pairs them branch by branch, compares ends,\n"
     "asymptotes and extremes, puts every vertex of either on the line of the other to many digits, and\n"
     "counts the unstable roots at sample points, half of them close to the lines, by winding and by\n"
-    "counting lines; more than one in twenty that cannot be counted make the verdict undecided.\n"
+    "counting lines; more than one in a hundred that cannot be counted make the verdict undecided.\n"
     "\n"
     "  --case NAME       only the section [case NAME] or [track NAME]\n"
     "  --damping X       eta_p = eta_b = eta_f = X instead of the levels of the file\n"

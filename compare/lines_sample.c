@@ -190,7 +190,7 @@ cv_status cmp_lines_sample(cmp_line_samples *out, const cmp_branches lists[CMP_M
         s.count = points - out->points < MASSES ? points - out->points : MASSES;
         status = sample_velocity(&s, near, why);
     }
-    if (status == CV_OK && 20 * out->undecided_points > out->points)
+    if (status == CV_OK && 100 * out->undecided_points > out->points)
         cmp_verdict_worsen(&out->verdict, CMP_UNDECIDED,
                            "at %zu of %zu points unstable roots cannot be counted", out->undecided_points,
                            out->points);
