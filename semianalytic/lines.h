@@ -63,7 +63,8 @@ typedef enum {
 
 /* What the line does beyond the end of its branch. */
 typedef enum {
-    SA_BEYOND_NOTHING,   /* not known: the range of alpha ends, or undecided; closed lines */
+    SA_BEYOND_NOTHING,   /* not known: the range of alpha ends, undecided, or lost beyond any range of eta_M;
+                          * closed lines */
     SA_BEYOND_ASYMPTOTE, /* eta_M grows to infinity as q -> 0, alpha -> that of asymptote "number" */
     SA_BEYOND_ZERO,      /* eta_M grows to infinity at q > 0: zeta(zero_alpha, zero_q) = 0 */
     SA_BEYOND_BRANCH,    /* comes back into the range of eta_M as branch "number" */
@@ -87,7 +88,7 @@ typedef enum {
     SA_LINE_ZERO_MASS, /* one end leaves the range of alpha at its upper end, on the way to zero mass at
                         * infinite velocity */
     SA_LINE_OUT,       /* leaves the range of alpha at its lower end, or at the upper with both ends */
-    SA_LINE_UNDECIDED  /* an end is */
+    SA_LINE_UNDECIDED  /* an end is, or is lost beyond any range of eta_M */
 } sa_line_kind;
 
 typedef struct {

@@ -148,12 +148,18 @@ static void set_beyond(row *r)
     }
 }
 
+static int is_lost(const sa_line_end *end)
+{
+    return end->kind == SA_END_MASS_HIGH && end->beyond == SA_BEYOND_NOTHING;
+}
+
 static sa_line_kind line_kind(const sa_line_store *store, size_t line)
 {
     if (store->line[line].closed)
         return SA_LINE_CLOSED;
     sa_end_kind a = store->end[line][0].kind, b = store->end[line][1].kind;
-    if (a == SA_END_UNDECIDED || b == SA_END_UNDECIDED || a >= SA_END_CURVE || b >= SA_END_CURVE)
+    if (a == SA_END_UNDECIDED || b == SA_END_UNDECIDED || a >= SA_END_CURVE || b >= SA_END_CURVE ||
+        is_lost(&store->end[line][0]) || is_lost(&store->end[line][1]))
         return SA_LINE_UNDECIDED;
     if (a == SA_END_MASS_HIGH && b == SA_END_MASS_HIGH)
         return SA_LINE_INFINITE;

@@ -274,6 +274,7 @@ static size_t comes_back(const sa_line_store *store, int at, const runner *r)
 static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_sample *last,
                       const sa_line_sample *before)
 {
+    const double lost_far_above = 10;
     int zero;
     sa_line_store *store = lines->store;
     runner r = {.alpha = last->alpha,
@@ -299,6 +300,8 @@ static cv_status sink(sa_lines *lines, size_t number, int at, const sa_line_samp
         return CV_OK;
     }
     const size_t other = r.eta_M <= 1 / store->re_floor ? comes_back(store, at, &r) : store->line_count;
+    if (other == store->line_count && r.eta_M > lost_far_above * SA_LINES_MASS_MAX)
+        return CV_OK; /* where it goes is not known, but no range of eta_M reaches there */
     if (other == store->line_count)
         return sa_lines_doubt(lines, last->alpha, last->q, "a line without an asymptote");
     *end = (sa_line_end){.kind = SA_END_MASS_HIGH, .beyond = SA_BEYOND_BRANCH, .number = other};
