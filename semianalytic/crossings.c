@@ -1,5 +1,6 @@
 #include "semianalytic/crossings.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -82,10 +83,11 @@ static cv_status crossing(const scan *sc, const sa_sample *a, const sa_sample *b
         t = t + step > low && t + step < high ? t + step : (low + high) / 2;
     }
     double moved = fmin(fabs(step), high - low) + fabs(s.im_error / s.im_t);
+    const double rounding = fabs(s.re_q) * DBL_EPSILON * s.q; /* signs belong to rounded q */
     int falls_with_t = a->im > 0, t_grows_with_q = sc->side == 0;
     return append(sc->out, (sa_crossing){.q = s.q,
                                          .re = s.re,
-                                         .re_error = s.re_error + fabs(s.re_t) * moved,
+                                         .re_error = s.re_error + fabs(s.re_t) * moved + rounding,
                                          .direction = falls_with_t == t_grows_with_q ? 1 : -1});
 }
 
