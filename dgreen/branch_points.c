@@ -78,7 +78,8 @@ static size_t add_soft(dg_branch_point *points, size_t n, const dg_bend *bend, s
             continue;
         const double width = bend->cusp ? sqrt(2 * fabs(missing * missing * missing / bend->scale)) * 2 / 3
                                         : 0.1 / fabs(bend->scale);
-        points[n++] = (dg_branch_point){fabs(q), q, sign * bend->p, fmax(width, 1e-15), 0, (int)curve, 1, 0};
+        points[n++] =
+            (dg_branch_point){fabs(q), q, sign * bend->p, fmax(width, 1e-15), 0, (int)curve, 1, 0, 0};
     }
     return n;
 }

@@ -28,6 +28,7 @@ typedef struct {
     int curve;   /* which family alpha -> q_b(alpha); the same number at every alpha */
     int soft;  /* 1: no branch point at this alpha, but a wave of extreme curvature or none (two branch points
                   that meet at another alpha): zeta varies over the distance width around q */
+    int bend;  /* sign of the curvature of omega(p); 0: soft */
     int quiet; /* 1: found to be of no account (dgreen/curve.c); 0 in lists that are new */
 } dg_branch_point;
 

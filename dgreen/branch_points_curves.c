@@ -239,6 +239,13 @@ void dg_family_point(dg_branch_point *out, const dg_branch_curves *b, size_t fam
     }
     const double q = alpha * f->sign * p - w.omega;
     const double width = fmax(dg_wave_shift(b->track, p, &w), 1e-18);
-    *out = (dg_branch_point){fabs(q), q, f->sign * p, width, peak_of(b->track, p, q, &w, width), (int)family,
-                             0,       0};
+    *out = (dg_branch_point){fabs(q),
+                             q,
+                             f->sign * p,
+                             width,
+                             peak_of(b->track, p, q, &w, width),
+                             (int)family,
+                             0,
+                             w.curvature > 0 ? 1 : -1,
+                             0};
 }

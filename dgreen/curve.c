@@ -163,6 +163,8 @@ cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_flo
         status = mark_quiet(c, p, why);
     if (status == CV_OK)
         status = lay_nodes(c, p, first_frequency(c, p), q_last, why);
+    if (status == CV_OK)
+        status = dg_curve_poles(c, p, why);
     if (status != CV_OK)
         return status;
     dg_curve_sort(c);
@@ -177,6 +179,7 @@ void dg_curve_clear(dg_curve *c)
     free(c->nodes);
     free(c->crossings);
     free(c->dips);
+    free(c->poles);
     dg_station_clear(&c->at);
     memset(c, 0, sizeof *c);
 }

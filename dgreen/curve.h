@@ -24,6 +24,14 @@ typedef struct {
     double d_im; /* d Im zeta/d alpha of the minimum */
 } dg_dip;
 
+/* Without damping: a hard branch point, where zeta ~ C/sqrt(q - q_b) goes to infinity. */
+typedef struct {
+    dg_dd q;
+    int waves_above; /* its waves run for larger q, or (0) for smaller */
+    int real;        /* sign of Re zeta beside it on the side without waves */
+    int imaginary;   /* sign of Im zeta beside it on the side of the waves */
+} dg_pole;
+
 typedef struct {
     dg_station at;
     double x_floor; /* crossings and dips with smaller Re zeta are not listed */
@@ -34,6 +42,8 @@ typedef struct {
     dg_crossing *crossings; /* ascending in q, all with x >= x_floor */
     size_t dip_count, dip_room;
     dg_dip *dips;
+    size_t pole_count;
+    dg_pole *poles; /* ascending in q; none with damping */
 } dg_curve;
 
 /* Method: nodes at logarithmic distances from q = 0 and, on both sides, from every branch point, down to a
@@ -43,10 +53,11 @@ typedef struct {
  * that may hide two zeros, and where the curve turns. Ends: q so small that |zeta| < x_floor/2 with |zeta| ~
  * q^2 before it, and so large that the bare rail (Re zeta < 0, Im zeta < 0) rules. Not found: two zeros of Im
  * zeta between consecutive nodes if neither |Im zeta| shows a minimum there nor the cubic a surprise. x_floor
- * > 0. Without damping the curve goes to infinity at every hard branch point, from one axis to the other: a
- * crossing there has x = x_low = x_high = INFINITY, whatever the nodes beside it show: |zeta| ~ C/sqrt(q -
- * q_b) may be small at the nearest double. *c must be zero or a former curve, whose memory is used again.
- * CV_UNDECIDED: a sign could not be certified, or one of the ends could not be reached. */
+ * > 0. Without damping there are nodes beside every pole, at neighbouring doubles where Im zeta lets them.
+ * Between them zeta goes to infinity: a crossing there has x = x_low = x_high = INFINITY; and where Im zeta
+ * beside the pole has not yet the sign that it has on the pole, there is one more, with x = Re zeta. *c must
+ * be zero or a former curve, whose memory is used again. CV_UNDECIDED: a sign could not be certified, or one
+ * of the ends could not be reached. */
 cv_status dg_curve_at(dg_curve *c, const dg_probe *p, double alpha, double x_floor, cv_message *why);
 void dg_curve_clear(dg_curve *c);
 
@@ -60,5 +71,10 @@ cv_status dg_curve_separate_exactly(dg_curve *c, const dg_probe *p, double x, cv
 /* Narrows [a, b], where Im zeta changes sign, and fills the crossing, its slopes included. */
 cv_status dg_curve_cross(dg_crossing *x, const dg_probe *p, const dg_station *at, const dg_node *a,
                          const dg_node *b);
+
+/* Whether q is above the pole (the pole below q), exactly; and the pole between two consecutive nodes, or
+ * NULL. */
+int dg_pole_below(const dg_pole *pole, double q);
+const dg_pole *dg_curve_pole(const dg_curve *c, const dg_node *a, const dg_node *b);
 
 #endif

@@ -149,10 +149,20 @@ static cv_status push_dip(dg_curve *c, const dg_probe *p, const dg_node *n, cv_m
     return status;
 }
 
-/* Without damping zeta passes through infinity between a and b. */
-static int passes_infinity(const dg_curve *c, const dg_probe *p, double a, double b)
+/* What is between the nodes beside a pole; sharpened */
+static cv_status list_at_pole(dg_curve *c, const dg_probe *p, const dg_pole *pole, size_t i, cv_message *why)
 {
-    return !p->track->damped && dg_station_straddles(&c->at, a, b);
+    dg_crossing found[2];
+    cv_status status = dg_probe_sharpen(&c->nodes[i], p, c->at.alpha);
+    if (status == CV_OK)
+        status = dg_probe_sharpen(&c->nodes[i + 1], p, c->at.alpha);
+    if (status != CV_OK)
+        return cv_fail(why, status, "zeta not known beside a branch point at alpha = %.17g", c->at.alpha);
+    const int count = dg_pole_crossings(found, c, pole, &c->nodes[i], &c->nodes[i + 1]);
+    for (int k = 0; k < count && status == CV_OK; k++)
+        if (found[k].x >= c->x_floor)
+            status = push_crossing(c, &found[k], why);
+    return status;
 }
 
 static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_message *why)
@@ -162,8 +172,6 @@ static cv_status list_crossing(dg_curve *c, const dg_probe *p, size_t i, cv_mess
     cv_status status = dg_curve_cross(&x, p, &c->at, &a, &b);
     if (status != CV_OK)
         return cv_fail(why, status, "crossing at alpha = %.17g, q = %.17g not resolved", c->at.alpha, x.q);
-    if (x.x > 0 && passes_infinity(c, p, x.q_low, x.q_high))
-        x.x = x.x_low = x.x_high = INFINITY;
     if (x.x >= c->x_floor)
         status = push_crossing(c, &x, why);
     if (status == CV_OK && x.q_low > a.q)
@@ -203,9 +211,12 @@ cv_status dg_curve_list(dg_curve *c, const dg_probe *p, cv_message *why)
     cv_status status = CV_OK;
     for (size_t i = 0; i + 1 < n && status == CV_OK; i++) {
         const dg_node *a = &c->nodes[i];
-        if (positive(a) != positive(a + 1)) {
+        const dg_pole *pole = dg_curve_pole(c, a, a + 1);
+        if (pole != NULL) {
+            status = list_at_pole(c, p, pole, i, why);
+        } else if (positive(a) != positive(a + 1)) {
             status = sharpen(c, p, i);
-            if (status == CV_OK && (relevant(c, i, n) || passes_infinity(c, p, a->q, a[1].q)))
+            if (status == CV_OK && relevant(c, i, n))
                 status = list_crossing(c, p, i, why);
         } else if (i > 0 && a->re > c->x_floor && positive(a - 1) == positive(a) &&
                    fabs(a->im) < fmin(fabs(a[-1].im), fabs(a[1].im)) && fabs(a->im) < 3 * a->re) {

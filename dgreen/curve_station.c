@@ -98,15 +98,3 @@ double dg_station_middle(const dg_station *s, double a, double b)
         middle = right + right_width - sqrt((right - a + right_width) * (right - b + right_width));
     return middle > a && middle < b ? middle : a + (b - a) / 2;
 }
-
-int dg_station_straddles(const dg_station *s, double a, double b)
-{
-    static const double ROUNDING = 1e-13, RESIDUE = 1e-15;
-    for (size_t i = 0; i < s->count; i++) {
-        const dg_branch_point *point = &s->points[i];
-        const double near = ROUNDING * point->q + RESIDUE * s->alpha * fabs(point->p);
-        if (!point->soft && point->q >= a - near && point->q <= b + near)
-            return 1;
-    }
-    return 0;
-}

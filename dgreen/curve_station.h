@@ -25,9 +25,6 @@ double dg_station_frequency(const dg_station *s, double position);
 double dg_station_scale(const dg_station *s, double q);
 /* The nearest hard branch point; NULL when there is none. */
 const dg_branch_point *dg_station_nearest(const dg_station *s, double q);
-/* Whether a hard branch point is between a and b, as far as it is known in double: q_b = alpha p - omega
- * cancels. */
-int dg_station_straddles(const dg_station *s, double a, double b);
 /* Between a and b, half way in the logarithm of the distance to the nearest branch point. */
 double dg_station_middle(const dg_station *s, double a, double b);
 

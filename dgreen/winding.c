@@ -34,20 +34,15 @@ static double turn(int *passes, const dg_node *a, const dg_node *b, double x)
     return atan2(up, across);
 }
 
-/* arg(b - x) - arg(a - x) on the way from a to infinity, there round to the direction of b, and back to b. */
-static double turn_at_infinity(const dg_node *a, const dg_node *b, double x)
+/* The same where zeta goes through infinity: from one node along the real direction, on the side without
+ * waves, there round to the imaginary direction, and back along it to the other node. */
+static double turn_at_pole(const dg_pole *pole, const dg_node *a, const dg_node *b, double x)
 {
-    const double complex one = CMPLX(a->re, a->im), other = CMPLX(b->re, b->im);
-    return carg(one / (one - x)) + carg(other / one) + carg((other - x) / other);
-}
-
-/* Whether one of the crossings between two nodes is at infinity */
-static int infinite(const dg_curve *c, const dg_node *a, const dg_node *b)
-{
-    for (size_t i = 0; i < c->crossing_count; i++)
-        if (isinf(c->crossings[i].x) && c->crossings[i].q_low >= a->q && c->crossings[i].q_high <= b->q)
-            return 1;
-    return 0;
+    const dg_node *wave = pole->waves_above ? b : a, *rest = pole->waves_above ? a : b;
+    const double complex real = CMPLX(pole->real, 0), imaginary = CMPLX(0, pole->imaginary);
+    const double complex from = CMPLX(rest->re - x, rest->im), to = CMPLX(wave->re - x, wave->im);
+    const double way = carg(real / from) + carg(imaginary / real) + carg(to / imaginary);
+    return pole->waves_above ? way : -way;
 }
 
 cv_status dg_winding(int *roots, const dg_curve *c, double x, cv_message *why)
@@ -57,7 +52,8 @@ cv_status dg_winding(int *roots, const dg_curve *c, double x, cv_message *why)
     double sum = atan2(-first->im, x - first->re); /* zeta(0) = 0 */
     for (size_t i = 0; i + 1 < c->node_count; i++) {
         const dg_node *a = &c->nodes[i], *b = a + 1;
-        sum += infinite(c, a, b) ? turn_at_infinity(a, b, x) : turn(&passes, a, b, x);
+        const dg_pole *pole = dg_curve_pole(c, a, b);
+        sum += pole != NULL ? turn_at_pole(pole, a, b, x) : turn(&passes, a, b, x);
     }
     sum += PI / 4 - atan2(-last->im, x - last->re); /* the bare rail to infinity */
     if (passes)

@@ -214,25 +214,6 @@ START_TEST(threads_do_not_meet)
 }
 END_TEST
 
-START_TEST(undamped_is_refused)
-{
-    dg_track *t = track_of("6 5 0.03 3 0 0 0 0 0");
-    dg_transition_list list;
-    cv_number low, high;
-    cv_message why;
-    cv_number_init(&low);
-    cv_number_init(&high);
-    set_decimal(&low, 0.5);
-    set_decimal(&high, 1);
-    ck_assert_int_eq(dg_find_transitions(&list, NULL, &t->exact, &low, &high, 1, &high, 20, 0, &why),
-                     CV_BAD_INPUT);
-    ck_assert_uint_eq(list.count, 0);
-    cv_number_clear(&low);
-    cv_number_clear(&high);
-    dg_track_free(t);
-}
-END_TEST
-
 /* x^3 - 2, certified by exact signs */
 static cv_status cube_less_two(dg_end *e, void *context)
 {
@@ -271,7 +252,6 @@ int main(void)
     tcase_add_test(c, more_digits_confirm_the_bounds);
     tcase_add_test(c, ranges_add_up);
     tcase_add_test(c, threads_do_not_meet);
-    tcase_add_test(c, undamped_is_refused);
     tcase_add_test(c, bracket_closes_on_the_cube_root);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
