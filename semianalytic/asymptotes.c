@@ -89,15 +89,19 @@ cv_status sa_asymptote_function(double *k, double *c, double *c_error, const sa_
     return n > 0 && isfinite(*c) && isfinite(*c_error) ? CV_OK : CV_UNDECIDED;
 }
 
-/* Where double does not know its sign: from Im zeta at a tiny q. */
+/* Where double does not know its sign: from Im zeta at a tiny q. At the shear speed a pole is at infinity:
+ * beside it. */
 static cv_status evaluate(double *c, const search *s, double alpha)
 {
+    const double nudge = 1e-13;
     double k, c_error, q = 1e-3 * s->shortest;
     cv_status status = sa_asymptote_function(&k, c, &c_error, s->track, alpha);
     if (status == CV_OK && fabs(*c) > 4 * c_error)
         return CV_OK;
     sa_value v;
     status = sa_zeta_adaptive(&v, s->sweep, s->track, alpha, q, 0.05);
+    if (status == CV_UNDECIDED)
+        status = sa_zeta_adaptive(&v, s->sweep, s->track, alpha * (1 + nudge), q, 0.05);
     if (status == CV_OK)
         *c = v.im / q / q / q;
     return status;

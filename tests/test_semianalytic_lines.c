@@ -450,17 +450,19 @@ static double im_over_q3(const sa_track *track, mpfr_srcptr alpha, double q)
 }
 
 /* Im zeta = c q^3 + d q^5: at a zero of c what is left of Im zeta / q^3 falls by 100 when q does by 10; and c
- * has no other change of sign at 400 velocities over the range. */
+ * has no other change of sign at 400 velocities over the range. On the last track a column of the map ends at
+ * the shear speed of the ballast, where a pole is at infinity. */
 START_TEST(asymptotes_are_the_zeros_of_c)
 {
-    static const char *const damping[] = {"0.1", "1e-4", "1e-10"};
-    const int number = 4 - _i % 2;
+    static const char *const damping[] = {"0.1", "1e-4", "1e-10", "1e-10"};
+    static const char *const sheared[6] = {"5.39309", "44.5051", "0.189418", "0.440042", "16.2703", "0"};
+    const char *const *const values = _i < 3 ? table1[3 - _i % 2] : sheared;
     cv_params p;
     sa_asymptote_list list;
     typed_range r;
-    sa_track *track = make_track(table1[number - 1], damping[_i]);
+    sa_track *track = make_track(values, damping[_i]);
     cv_params_init(&p);
-    set_params(&p, table1[number - 1], damping[_i]);
+    set_params(&p, values, damping[_i]);
     range_set(&r, "0.02", "2", "1", "10");
     ck_assert_int_eq(sa_asymptotes_find(&list, &p, &r.end[0], &r.end[1], 30, NULL), CV_OK);
     ck_assert_uint_ge(list.count, 1);
@@ -522,7 +524,7 @@ int main(void)
     TCase *t = tcase_create("lines");
     tcase_set_timeout(t, 60);
     tcase_add_test(t, wrong_input_is_refused);
-    tcase_add_loop_test(t, asymptotes_are_the_zeros_of_c, 0, 3);
+    tcase_add_loop_test(t, asymptotes_are_the_zeros_of_c, 0, 4);
     tcase_add_test(t, named_places);
     tcase_add_test(t, lines_along_branch_curves);
     tcase_add_test(t, a_closed_line);
