@@ -3,7 +3,7 @@
 #include <check.h>
 #include <math.h>
 
-#include "tests/semianalytic_points.h"
+#include "tests/semianalytic_exact.h"
 
 static gsl_rng *rng;
 static sa_sweep *sweep;
@@ -19,44 +19,6 @@ static void teardown(void)
 {
     gsl_rng_free(rng);
     sa_sweep_free(sweep);
-}
-
-typedef struct {
-    mpc_t zeta;
-    mpfr_t re_error, im_error, alpha, q;
-} exact;
-
-static void exact_init(exact *x, mpfr_prec_t bits)
-{
-    mpc_init2(x->zeta, bits);
-    mpfr_inits2(64, x->re_error, x->im_error, (mpfr_ptr)0);
-    mpfr_inits2(53, x->alpha, x->q, (mpfr_ptr)0);
-}
-
-static void exact_clear(exact *x)
-{
-    mpc_clear(x->zeta);
-    mpfr_clears(x->re_error, x->im_error, x->alpha, x->q, (mpfr_ptr)0);
-}
-
-static cv_status exact_at(exact *x, const sa_track *t, double alpha, double q)
-{
-    mpfr_set_d(x->alpha, alpha, MPFR_RNDN);
-    mpfr_set_d(x->q, q, MPFR_RNDN);
-    return sa_zeta_mp(x->zeta, x->re_error, x->im_error, sweep, t, x->alpha, x->q);
-}
-
-/* |value - part| <= error, up to what the bound of part allows */
-static int contains(double value, double error, const mpfr_t part, const mpfr_t part_error)
-{
-    mpfr_t gap;
-    mpfr_init2(gap, 300);
-    mpfr_sub_d(gap, part, value, MPFR_RNDN);
-    mpfr_abs(gap, gap, MPFR_RNDN);
-    mpfr_sub(gap, gap, part_error, MPFR_RNDD);
-    int result = mpfr_cmp_d(gap, error) <= 0;
-    mpfr_clear(gap);
-    return result;
 }
 
 static sa_track *random_undamped(double *alpha, double *q)
@@ -81,7 +43,7 @@ START_TEST(bounds_of_double_contain_many_digits)
         double alpha, q;
         sa_track *t = random_undamped(&alpha, &q);
         sa_value v;
-        if (sa_zeta_double(&v, sweep, t, alpha, q) == CV_OK && exact_at(&x, t, alpha, q) == CV_OK) {
+        if (sa_zeta_double(&v, sweep, t, alpha, q) == CV_OK && exact_at(&x, sweep, t, alpha, q) == CV_OK) {
             ck_assert_msg(contains(v.re, v.re_error, mpc_realref(x.zeta), x.re_error) &&
                               contains(v.im, v.im_error, mpc_imagref(x.zeta), x.im_error),
                           "case %d: alpha %.17g q %.17g: %.17g +- %.1e %.17g +- %.1e", i, alpha, q, v.re,
@@ -162,7 +124,8 @@ START_TEST(damping_that_tends_to_zero_leads_there)
         ck_assert_int_eq(sa_track_new(&t[0], &p, NULL), CV_OK);
         set_damping(&p, "1e-40", "3e-40", "2e-40");
         ck_assert_int_eq(sa_track_new(&t[1], &p, NULL), CV_OK);
-        if (exact_at(&limit, t[0], alpha, q) == CV_OK && exact_at(&damped, t[1], alpha, q) == CV_OK) {
+        if (exact_at(&limit, sweep, t[0], alpha, q) == CV_OK &&
+            exact_at(&damped, sweep, t[1], alpha, q) == CV_OK) {
             double re = mpfr_get_d(mpc_realref(limit.zeta), MPFR_RNDN);
             double im = mpfr_get_d(mpc_imagref(limit.zeta), MPFR_RNDN);
             double scale = 1e-28 * (fabs(re) + fabs(im));
@@ -195,7 +158,7 @@ START_TEST(no_track_is_silent)
     for (int i = 0; i < 300; i++) {
         double alpha, q;
         sa_track *t = random_undamped(&alpha, &q);
-        if (exact_at(&x, t, alpha, q) == CV_OK) {
+        if (exact_at(&x, sweep, t, alpha, q) == CV_OK) {
             ck_assert(mpfr_cmpabs(mpc_imagref(x.zeta), x.im_error) > 0);
             tiny += fabs(mpfr_get_d(mpc_imagref(x.zeta), MPFR_RNDN)) < 1e-10;
         }
