@@ -12,10 +12,7 @@
  * that passes 1/eta_M is followed by false position and refined (dgreen/transitions_refine.h). N on both
  * sides of a special velocity, a billionth of it away, tells whether it is a transition. Not found: two
  * transitions of one mass ratio so close together that the crossings at both ends of an interval do not show
- * it; and a strip between two lines that vanishes with the damping, as it should.
- * Wrong: where a wave of no group velocity moves the rail so little that the curve goes to infinity and comes
- * back within the rounding of q (ever shorter waves, towards the shear speed), those two roots are not counted.
- */
+ * it; and a strip between two lines that vanishes with the damping, as it should. */
 #ifndef CRITVEL_DGREEN_LIMIT_TRANSITIONS_H
 #define CRITVEL_DGREEN_LIMIT_TRANSITIONS_H
 
