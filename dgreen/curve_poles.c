@@ -1,3 +1,4 @@
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -22,7 +23,7 @@ static cv_status exact_frequency(dg_dd *q_b, const dg_track *t, double alpha, co
 {
     enum { STEPS = 3 };
     const double step = 1e-7 * (fabs(point->signed_q) + alpha * fabs(point->p));
-    double q = point->signed_q;
+    double q = point->signed_q, before = q;
     for (int i = 0; i < STEPS; i++) {
         dg_dd here, beside;
         cv_status status = delta_at(&here, t, alpha, q, point->p);
@@ -32,9 +33,10 @@ static cv_status exact_frequency(dg_dd *q_b, const dg_track *t, double alpha, co
             return status;
         const double rise = dg_dd_add(beside, dg_dd_negative(here)).hi;
         *q_b = dg_dd_two(q, -here.hi * ((q + step) - q) / rise);
+        before = q;
         q = q_b->hi;
     }
-    return isfinite(q) && q != 0 ? CV_OK : CV_UNDECIDED;
+    return q != 0 && fabs(q - before) <= DBL_EPSILON * fabs(q) ? CV_OK : CV_UNDECIDED;
 }
 
 int dg_pole_below(const dg_pole *pole, double q)
@@ -93,20 +95,25 @@ cv_status dg_curve_poles(dg_curve *c, const dg_probe *p, cv_message *why)
     if (c->poles == NULL)
         return cv_fail(why, CV_FAILED, "out of memory");
     cv_status status = CV_OK;
+    double passed = 0; /* the node above the last pole */
     for (size_t i = 0; i < c->at.count && status == CV_OK; i++) {
         const dg_branch_point *point = &c->at.points[i];
         dg_dd q;
         if (point->soft || point->q == 0)
             continue;
         status = exact_frequency(&q, p->track, c->at.alpha, point);
-        if (status != CV_OK)
+        if (status == CV_OK)
+            c->poles[c->pole_count] = pole_of(point, q);
+        /* two poles between the same nodes could not be told apart */
+        if (status != CV_OK || dg_pole_below(&c->poles[c->pole_count], passed))
             return cv_fail(why, CV_UNDECIDED, "branch point near q = %.17g at alpha = %.17g", point->q,
                            c->at.alpha);
-        dg_pole *pole = &c->poles[c->pole_count++];
-        *pole = pole_of(point, q);
+        const dg_pole *pole = &c->poles[c->pole_count++];
         status = add_beside(c, p, pole, 0, why);
         if (status == CV_OK)
             status = add_beside(c, p, pole, 1, why);
+        if (status == CV_OK)
+            passed = c->nodes[c->node_count - 1].q;
     }
     return status;
 }
