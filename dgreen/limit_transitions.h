@@ -12,7 +12,10 @@
  * that passes 1/eta_M is followed by false position and refined (dgreen/transitions_refine.h). N on both
  * sides of a special velocity, a billionth of it away, tells whether it is a transition. Not found: two
  * transitions of one mass ratio so close together that the crossings at both ends of an interval do not show
- * it; and a strip between two lines that vanishes with the damping, as it should. */
+ * it; and a strip between two lines that vanishes with the damping, as it should.
+ * Wrong: next to the shear speed of the ballast, where the waves of no group velocity are shorter than any
+ * that dgreen/branch_points.h lists (within some 1e-6 of it), their roots are not counted.
+ */
 #ifndef CRITVEL_DGREEN_LIMIT_TRANSITIONS_H
 #define CRITVEL_DGREEN_LIMIT_TRANSITIONS_H
 
